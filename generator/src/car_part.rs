@@ -1,17 +1,19 @@
-//! Parts of a car by name, as text that a model includes: surfaces, curves and contacts with the people who meet them.
+//! Parts of a car, by name, as text that a model includes: surfaces, curves and contacts with people.
 //!
 //! | part | what |
 //! |---|---|
 //! | `cushion` | the plane of a seat cushion of foam |
 //! | `seat` | a cushion and a seat back |
 //! | `knee-bolster` | a padded panel before the knees |
-//! | `steering-column` | a steering wheel of hub and rim on a column that gives way along its axis |
+//! | `steering-column` | a steering wheel with hub and rim, on a column that yields along its axis |
 //!
-//! All numbers are usual magnitudes of sled models: **assumed**. The foam of cushions is the stress of seat foam over its strain, 17 kPa at 0.1 to 95 kPa at 0.7 and then hard, times the area that rests on it, 0.03 m², over a thickness of 100 mm.
+//! All numbers are usual magnitudes of sled models: **assumed**. The force of a cushion is the stress of seat foam as a
+//! function of its strain (17 kPa at 0.1 to 95 kPa at 0.7, and then hard), times the area that rests on it, 0.03 m²;
+//! the thickness is 100 mm.
 
 use std::fmt::Write as _;
 
-/// Which part.
+/// The kind of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CarPartKind {
     /// The plane of a seat cushion.
@@ -20,45 +22,46 @@ pub enum CarPartKind {
     Seat,
     /// A padded panel before the knees.
     KneeBolster,
-    /// A steering wheel on a column that gives way.
+    /// A steering wheel on a column that yields.
     SteeringColumn,
 }
 
-/// A part, and where it is.
+/// A part and its place.
 #[derive(Clone, Debug)]
 pub struct CarPart {
-    /// Which.
+    /// The kind of the part.
     pub kind: CarPartKind,
-    /// Begins the names of all that it consists of.
+    /// The names of all its surfaces, curves and contacts begin with this.
     pub name: String,
-    /// The vehicle, or `frame`.
+    /// The name of the vehicle; or `frame`.
     pub on: String,
-    /// x, y, z in the frame of the vehicle \[m\]; y is 0 in the plane.
+    /// Position x, y, z in the frame of the vehicle \[m\]; y is 0 in the plane.
     pub at: [f64; 3],
-    /// What it leans by about y \[rad\]; `None`: as usual.
+    /// Inclination about y \[rad\]; `None` for the usual one.
     pub angle: Option<f64>,
-    /// Systems of people who meet it.
+    /// The systems (people) that the part is in contact with.
     pub against: Vec<String>,
-    /// Factor on its forces, a number or the name of a parameter.
+    /// Factor on all forces: a number or the name of a parameter.
     pub times: String,
-    /// Whether for a model in the plane.
+    /// True for a planar model.
     pub planar: bool,
 }
 
-/// Force of foam below a pelvis \[mm, N\].
+/// Force of foam below a pelvis, against the depth \[mm, N\].
 const FOAM: &str = "[[0, 0], [10, 510], [20, 900], [30, 1320], [40, 1770], [50, 2100], [60, 2460], [70, 2850], [75, 33000]]";
-/// Force of a seat back \[mm, N\].
+/// Force of a seat back, against the depth \[mm, N\].
 const BACK: &str = "[[0, 0], [50, 1500], [100, 6000], [150, 16000]]";
-/// Force of a knee bolster \[mm, N\].
+/// Force of a knee bolster, against the depth \[mm, N\].
 const PANEL: &str = "[[0, 0], [20, 1500], [60, 4000], [120, 8000], [160, 20000]]";
-/// Force of the padding of a wheel \[mm, N\].
+/// Force of the padding of a wheel, against the depth \[mm, N\].
 const PADDING: &str = "[[0, 0], [10, 1500], [30, 5000], [60, 15000], [120, 50000]]";
-/// Force along a column \[m, N\]: it breaks away at 2 kN, gives way up to 3 kN over 100 mm, and is then at its end.
+/// Force along a column \[m, N\]: the column breaks away at 2 kN, yields at up to 3 kN over 100 mm, and then hits its
+/// end.
 const COLUMN: &str =
     "[[-0.02, -20000], [0, 0], [0.004, 2000], [0.1, 3000], [0.11, 10000], [0.13, 40000]]";
 
 impl CarPart {
-    /// The text of a file that has it.
+    /// The text of a file with this part.
     pub fn yaml(&self) -> String {
         let mut text = format!(
             "# {}: usual magnitudes of sled models, assumed.\n",
@@ -73,9 +76,9 @@ impl CarPart {
         text
     }
 
-    /// A vector; in the plane x and z.
+    /// The text of a vector; in the plane of x and z only.
     fn vector(&self, [x, y, z]: [f64; 3]) -> String {
-        // to 0.1 µm, and without the sign of a 0 that rounding left
+        // rounded to 0.1 µm; a zero that rounding made negative loses its sign
         let [x, y, z] = [x, y, z].map(|value| (value * 1e7).round() / 1e7 + 0.0);
         match self.planar {
             true => format!("[{x}, {z}]"),
@@ -83,7 +86,7 @@ impl CarPart {
         }
     }
 
-    /// The place, moved in the plane of x and z \[m\].
+    /// The place of the part, moved by a distance along x and z \[m\].
     fn beside(&self, [dx, dz]: [f64; 2]) -> [f64; 3] {
         let [x, y, z] = self.at;
         [x + dx, y, z + dz]
@@ -96,7 +99,7 @@ impl CarPart {
         }
     }
 
-    /// The surfaces of a person in this part's reach, by the names that people have.
+    /// The surfaces of a person that can touch the part, by their names in models of people.
     fn surfaces(&self, person: &str, parts: &[&str]) -> Vec<String> {
         let sides = |part: &&str| match part.strip_prefix("both-") {
             Some(limb) if self.planar => vec![format!("{person}-{limb}")],
@@ -113,7 +116,7 @@ impl CarPart {
         Plane {
             part: "cushion",
             at: self.at,
-            // its front is higher
+            // the front of a cushion is higher
             leans: std::f64::consts::FRAC_PI_2
                 + self
                     .angle
@@ -200,7 +203,7 @@ impl CarPart {
             name, on, times, ..
         } = self;
         let tilt = self.angle.unwrap_or(25f64.to_radians());
-        // away from the driver, and down
+        // away from the driver, and downwards
         let axis = [libm::cos(tilt), 0.0, -libm::sin(tilt)];
         let rim = match self.planar {
             true => ("[0.02, 0.19]".to_owned(), format!("{tilt}")),
@@ -241,13 +244,13 @@ impl CarPart {
     }
 }
 
-/// A plane of a part.
+/// A plane that belongs to a part.
 struct Plane<'a> {
     part: &'static str,
     at: [f64; 3],
-    /// Direction of its normal in the plane of x and z, from x towards z \[rad\].
+    /// Direction of its normal in the plane x–z, from x towards z \[rad\].
     leans: f64,
-    /// How far it goes along and across \[m\].
+    /// Half-lengths along and across \[m\].
     extent: [f64; 2],
     curve: &'static str,
     keys: &'static str,

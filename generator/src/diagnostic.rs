@@ -1,40 +1,40 @@
-//! What is wrong with a description: file, line, column, message, help.
+//! Problems of a description: file, line, column, message, help.
 //!
-//! Every problem of a description is reported, not the first alone. A problem is drawn in rustc's look by its
-//! [`Display`](std::fmt::Display), and on one line (`file:line:column: message (help: …)`) by [`Diagnostic::line`] for
-//! build scripts and editors.
+//! All problems of a description are reported, not only the first. [`Display`](std::fmt::Display) draws a problem in
+//! the style of rustc, and [`Diagnostic::line`] writes it on one line (`file:line:column: message (help: …)`) for build
+//! scripts and editors.
 
 use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
 use std::fmt;
 
-/// Problems drawn at most; the others are counted.
+/// Largest number of problems that are drawn; the others are only counted.
 const SHOWN: usize = 50;
 /// Longest line of source that is drawn \[characters\].
 const LONGEST_EXCERPT: usize = 2000;
-/// Longest piece of the user's text that a message repeats \[characters\].
+/// Longest piece of the user's text that a message quotes \[characters\].
 const LONGEST_QUOTE: usize = 60;
 
-/// One problem, its place, and how to mend it.
+/// One problem, its place, and a remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Name of the file as it was given, with `/` between its parts.
     pub file: String,
-    /// Line, counted from 1; 0 where the problem is the file itself.
+    /// Line, counted from 1; 0 if the problem concerns the whole file.
     pub line: usize,
-    /// Column in characters, counted from 1; 0 where the problem is the file itself.
+    /// Column in characters, counted from 1; 0 if the problem concerns the whole file.
     pub column: usize,
-    /// Length of the text at fault in characters, within its line; at least 1.
+    /// Length of the faulty text within its line, in characters; at least 1.
     pub length: usize,
-    /// What is wrong, in the words of the description.
+    /// The problem in the words of the description.
     pub message: String,
-    /// What would be right.
+    /// A remedy.
     pub help: String,
-    /// The line at fault; empty where there is none or it is too long to be shown.
+    /// The faulty line; empty if there is none, or if it is too long to be shown.
     pub excerpt: String,
 }
 
 impl Diagnostic {
-    /// A problem of a whole file, such as one that cannot be read.
+    /// A problem of a whole file, such as a file that cannot be read.
     pub fn of_file(
         file: impl Into<String>,
         message: impl Into<String>,
@@ -76,7 +76,7 @@ impl Diagnostic {
         }
     }
 
-    /// The problem on one line: `file:line:column: message (help: …)`.
+    /// The problem as one line: `file:line:column: message (help: …)`.
     pub fn line(&self) -> String {
         let place = match self.line {
             0 => self.file.clone(),
@@ -85,7 +85,7 @@ impl Diagnostic {
         format!("{place}: {} (help: {})", self.message, self.help)
     }
 
-    /// The problem with its line of source, as rustc draws it.
+    /// The problem with its line of source, in the style of rustc.
     fn draw(&self, renderer: &Renderer) -> String {
         let title = Level::ERROR.primary_title(&self.message);
         let help = Level::HELP.message(&self.help);
@@ -126,12 +126,12 @@ impl fmt::Display for Diagnostic {
 /// All problems found in a description and the files it includes; never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics {
-    /// In the order of the text, file by file.
+    /// The problems in the order of the text, file by file.
     pub problems: Vec<Diagnostic>,
 }
 
 impl Diagnostics {
-    /// All problems drawn in rustc's look, in colour or plain.
+    /// All problems in the style of rustc, with or without colour.
     pub fn render(&self, colour: bool) -> String {
         let renderer = if colour {
             Renderer::styled()
@@ -153,7 +153,7 @@ impl Diagnostics {
         text.join("\n\n")
     }
 
-    /// One line per problem, for build scripts and editors.
+    /// Each problem as one line, for build scripts and editors.
     pub fn lines(&self) -> impl Iterator<Item = String> + '_ {
         self.problems.iter().map(Diagnostic::line)
     }
@@ -175,12 +175,12 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// The user's text in quotation marks: cut where it is long, control characters escaped.
+/// The user's text in quotation marks, shortened if it is long, and with control characters escaped.
 pub fn quoted(text: &str) -> String {
     format!("\"{}\"", excerpt(text))
 }
 
-/// The user's text: cut where it is long, control characters escaped.
+/// The user's text, shortened if it is long, and with control characters escaped.
 pub fn excerpt(text: &str) -> String {
     let mut shown: String = text
         .chars()
@@ -204,7 +204,8 @@ pub fn excerpt(text: &str) -> String {
     shown
 }
 
-/// The candidate that `word` was probably meant to be: at most a third of its letters wrong.
+/// The candidate that `word` was probably meant to be: at most a third of its letters are wrong. `None` if there is
+/// none.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let longest = word.chars().count().max(3);
     if longest > LONGEST_QUOTE {
@@ -223,7 +224,8 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, c)| c)
 }
 
-/// Help on a name that does not exist: the nearest candidate, or the list of those there are.
+/// Help for a name that does not exist: the nearest candidate, or the list of candidates; `none` if there are no
+/// candidates.
 pub fn suggestion<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str> + Clone,

@@ -1,5 +1,6 @@
-//! A ball joint: the element turns freely about it, and its orientation A (local frame → absolute frame) has coordinates of its own. In the plane
-//! it is a hinge about y. It passes forces to its carrier, but no moments except those of joint laws.
+//! A ball joint: the element turns freely about it, and its orientation A (local frame → absolute frame) has
+//! coordinates of its own. In the plane it is a hinge about y. The joint transmits forces to the carrier, but no
+//! moments except those of joint laws.
 //!
 //! ω = Σ e_j v_j,   H = (0, e_j),   Ḣ v: ε = Σ ė_j v_j
 //!
@@ -58,12 +59,12 @@ impl Orientation {
     }
 }
 
-/// The axes of the frame about which it can turn: in the plane only y.
+/// The axes of the frame about which the element can turn: in the plane only y.
 pub(crate) fn axes(planar: bool) -> &'static [usize] {
     if planar { &[1] } else { &[0, 1, 2] }
 }
 
-/// Names and units of q and v.
+/// Names and units of q and v for an orientation.
 pub(crate) fn variables(orientation: Orientation) -> Variables {
     let [angle, rate] = hinge::Hinge.coordinate().units();
     let (coordinates, unit, velocities): (&[&str], _, &[&str]) = match orientation {
@@ -154,7 +155,8 @@ pub(crate) fn motion<'g>(
             let (rotation, axes) = bryant(graph, [q[0], q[1], q[2]]);
             motion.rotation = chart.map_or(rotation, |chart| chart::rotation(&rotation, chart));
             motion.axes = axes.to_vec();
-            // ω is built in three steps. Each axis turns with those before it, so ė₂ = v₁ e₁ × e₂ and ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
+            // ω is the sum of three terms. Each axis turns with the rotations before it, so ė₂ = v₁ e₁ × e₂ and
+            // ė₃ = (v₁ e₁ + v₂ e₂) × e₃.
             let before_third = v[0] * axes[0] + v[1] * axes[1];
             motion.omega = before_third + v[2] * axes[2];
             motion.bias =

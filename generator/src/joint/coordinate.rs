@@ -14,7 +14,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// The name of a degree of freedom that has no other.
+    /// The default name of a degree of freedom with this kind of coordinate.
     pub fn name(self) -> &'static str {
         match self {
             Coordinate::Angle => "angle",
@@ -30,7 +30,7 @@ impl Coordinate {
         }
     }
 
-    /// The quantity of a value.
+    /// The physical quantity of a coordinate.
     pub(crate) fn value(self) -> Expected {
         match self {
             Coordinate::Angle => ANGLE,
@@ -38,7 +38,7 @@ impl Coordinate {
         }
     }
 
-    /// The quantity of a rate.
+    /// The physical quantity of its rate.
     pub(crate) fn rate(self) -> Expected {
         match self {
             Coordinate::Angle => RATE,
@@ -46,7 +46,7 @@ impl Coordinate {
         }
     }
 
-    /// The quantity of the inertia that resists its rate alone.
+    /// The physical quantity of an inertia that resists only this rate (an armature).
     pub(crate) fn inertia(self) -> Expected {
         match self {
             Coordinate::Angle => INERTIA,
@@ -54,7 +54,7 @@ impl Coordinate {
         }
     }
 
-    /// The quantity of its derivative with respect to another coordinate.
+    /// The physical quantity of the derivative of this coordinate with respect to another.
     pub(crate) fn per(self, other: Coordinate) -> Expected {
         match (self, other) {
             (Coordinate::Angle, Coordinate::Length) => ANGLE_PER_LENGTH,

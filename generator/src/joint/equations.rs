@@ -7,15 +7,15 @@ use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Graph};
 use crate::model::{Dimension, Element};
 
-/// Names and SI units.
+/// Names and SI units of the coordinates and velocities of a joint.
 pub(crate) struct Variables {
-    /// Those of q.
+    /// Names and units of q.
     pub coordinates: Vec<(String, &'static str)>,
-    /// Those of v.
+    /// Names and units of v.
     pub velocities: Vec<(String, &'static str)>,
 }
 
-/// Values at the start.
+/// Coordinates and velocities of a joint at the start.
 pub(crate) struct Start<'g> {
     /// q
     pub q: Vec<Expr<'g>>,
@@ -26,7 +26,7 @@ pub(crate) struct Start<'g> {
 }
 
 impl Joint {
-    /// Names and units of its coordinates and velocities. A degree of freedom that follows another has none.
+    /// Names and units of the joint's coordinates and velocities. A degree of freedom that follows another has none.
     pub(crate) fn variables(&self, orientation: Orientation) -> Variables {
         match self {
             Joint::Ball => ball::variables(orientation),
@@ -43,7 +43,7 @@ impl Joint {
         }
     }
 
-    /// The number of its velocities.
+    /// The number of the joint's velocities.
     pub fn velocities(&self, dimension: Dimension) -> usize {
         match self {
             Joint::Ball => ball::axes(dimension == Dimension::Plane).len(),

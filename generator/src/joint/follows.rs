@@ -17,16 +17,17 @@ use crate::model::{Element, Number};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// How a degree of freedom follows another: q = ratio · q of the leader + offset. It has no coordinate.
+/// The relation of a degree of freedom to its leader: q = ratio · q of the leader + offset. The follower has no
+/// coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Follows {
     /// The element of the leader, in the same system.
     pub element: usize,
-    /// Index of the leader among the degrees of freedom of that element's joint. The leader itself follows none.
+    /// Index of the leader among the degrees of freedom of that element's joint. The leader itself follows no other.
     pub freedom: usize,
     /// dq/dq of the leader \[rad/rad, m/m, m/rad or rad/m\].
     pub ratio: Number,
-    /// q where the coordinate of the leader is 0 \[rad\] or \[m\].
+    /// q of the follower when the coordinate of the leader is 0 \[rad\] or \[m\].
     pub offset: Number,
 }
 
@@ -37,7 +38,8 @@ impl Follows {
         before.iter().filter(|freedom| freedom.is_own()).count()
     }
 
-    /// The relation of a degree of freedom that follows this follower: q = ratio · q of it + offset.
+    /// The relation of a degree of freedom that follows this follower (q = ratio · q of this follower + offset) to this
+    /// follower's leader.
     fn followed(self, ratio: Number, offset: Number) -> Self {
         let shift = Number::product(ratio.clone(), self.offset);
         Follows {
@@ -47,7 +49,7 @@ impl Follows {
         }
     }
 
-    /// Its position and rate at the start.
+    /// Position and rate of the follower at the start.
     fn start(&self, elements: &[Element]) -> [Number; 2] {
         let leader = &elements[self.element].joint.freedoms()[self.freedom];
         let times = |n: &Number| Number::product(self.ratio.clone(), n.clone());
@@ -94,7 +96,8 @@ pub(crate) fn couple(
             follows = next.clone().followed(follows.ratio, follows.offset);
         }
         if coupled.contains_key(&(follows.element, follows.freedom)) {
-            // a circle is reported once, by its first member; degrees of freedom that lead into it are no circles of their own
+            // a circle is reported once, by its first member; degrees of freedom that follow a member of it are not
+            // part of it
             let circle = seen
                 .iter()
                 .position(|s| *s == (follows.element, follows.freedom));
@@ -113,7 +116,7 @@ pub(crate) fn couple(
     }
 }
 
-/// The freedom that a freedom follows, with ratio and offset.
+/// The leader of a freedom, with ratio and offset.
 fn leader(
     resolver: &Resolver<'_>,
     system: &str,
@@ -195,7 +198,7 @@ pub(crate) fn start_followers(elements: &mut [Element]) {
     }
 }
 
-/// The number of degrees of freedom that a joint as written stands for.
+/// The number of degrees of freedom of a joint as written.
 fn width(written: &WrittenFreedom) -> usize {
     let spellings = written.spellings();
     spellings

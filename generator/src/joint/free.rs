@@ -2,7 +2,7 @@
 //!
 //! p = x,   H = (e_x, e_y, e_z; 0),   Ḣ v = 0,   q̇ = v,   work of a wrench (f, n): f
 //!
-//! In the plane it moves along x and z.
+//! In the plane the origin moves along x and z.
 
 use super::equations::{Start, Variables};
 use super::{Kind, slider};
@@ -11,7 +11,7 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Number, System};
 
-/// The absolute axes along which it moves.
+/// The absolute axes along which the origin moves.
 pub(crate) fn directions(planar: bool) -> &'static [usize] {
     if planar { &[0, 2] } else { &[0, 1, 2] }
 }
@@ -39,7 +39,7 @@ pub(crate) fn start<'g>(graph: &'g Graph, directions: &[usize], system: &System)
     }
 }
 
-/// The vector with these components along the directions, and 0 along the other axes.
+/// The vector with these components along the directions; the other components are 0.
 pub(crate) fn vector<'g>(
     graph: &'g Graph,
     directions: &[usize],

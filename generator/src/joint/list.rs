@@ -1,5 +1,5 @@
-//! A joint of several degrees of freedom, one after the other from the carrier outwards, with no mass between: an ordered list, or a
-//! word for one.
+//! A joint of several degrees of freedom, one after the other from the carrier outwards, without mass between them: an
+//! ordered list, or a word that stands for one.
 //!
 //! | written | stands for |
 //! |---|---|
@@ -9,7 +9,8 @@
 //! | `translation` | sliders along x, y and z; in the plane along x and z |
 //! | `free` | the same sliders, then hinges about x, y and z; in the plane about y |
 //!
-//! The equations of such a joint treat its degrees of freedom as one block of velocities: D = Hᵀ I H has a row for each.
+//! The equations of such a joint treat its degrees of freedom as one block of velocities: D = Hᵀ I H has a row for each
+//! of them.
 
 use super::hinge::Hinge;
 use super::slider::Slider;
@@ -171,7 +172,7 @@ pub(crate) fn joint_of(
     named(resolver, listed, at)
 }
 
-/// The degrees of freedom that one written joint stands for.
+/// The degrees of freedom for which one written joint stands.
 fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<Listed<'w>> {
     let there = written.spellings();
     let [spelling] = there[..] else {
@@ -182,7 +183,7 @@ fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<
     let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
         match (value, spelling.coordinates) {
             (Some(value), [one]) => resolver.number(value, at.key(key), expected(*one)),
-            // for several degrees of freedom the key is refused
+            // a joint of several degrees of freedom refuses this key
             _ => Number::ZERO,
         }
     };
@@ -198,7 +199,7 @@ fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<
     made.into_iter().flatten().map(listed).collect()
 }
 
-/// Reports that a joint has no kind or several.
+/// Reports a joint that has no kind, or more than one.
 fn not_one_kind(resolver: &Resolver<'_>, there: &[&Spelling], at: At<'_>) {
     let quote = |spelling: &Spelling| format!("`{}`", spelling.key.name);
     let all: Vec<String> = SPELLINGS.iter().map(quote).collect();
@@ -246,7 +247,8 @@ fn check_keys(resolver: &Resolver<'_>, written: &Written, spelling: &Spelling, a
     }
 }
 
-/// The degrees of freedom with their names: as given, otherwise by their kind, and in a list also by their axes.
+/// The degrees of freedom with their names. A name that is not given is made from the kind, and in a list also from the
+/// axis.
 fn named(resolver: &Resolver<'_>, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint {
     if listed.len() > MOST {
         resolver.problems.add(at.problem(

@@ -1,8 +1,9 @@
 //! The joints of elements, a file for each kind.
 //!
-//! An element is connected to its carrier by a ball joint, which leaves its orientation absolute, or by degrees of freedom one after the other, from
-//! the carrier outwards, with no mass between. R and d are the rotation and the displacement of the outer side relative to the axes of the carrier
-//! and to the joint's place on it, after the degrees of freedom before. With θ = q + zero,
+//! An element is connected to its carrier by a ball joint, whose orientation is absolute, or by degrees of freedom one
+//! after the other, from the carrier outwards, without mass between them. R and d are the rotation and the displacement
+//! of the outer side of a degree of freedom: R relative to the axes of the carrier, d relative to the place of the
+//! joint on the carrier. The arrows below add one degree of freedom to R and d. With θ = q + zero,
 //!
 //! | file | joint | does |
 //! |---|---|---|
@@ -14,12 +15,14 @@
 //! | `follows` | a degree of freedom that follows another | q = ratio · q of the leader + offset |
 //! | `ball` | turns freely; in the plane a hinge about y | A from coordinates of its own |
 //! | `free` | a reference joint that moves freely | p = x |
-//! | `prescribed` | a reference joint that is at rest, is moved as given, or rides on a vehicle | p = x(t) |
+//! | `prescribed` | a reference joint that is at rest, has a prescribed motion, or rides on a vehicle | p = x(t) |
 //!
-//! An axis `a` is given in the frame of the carrier, with all degrees of freedom at 0. Their coordinates are relative to the carrier, and v = q̇.
+//! An axis `a` is given in the frame of the carrier, with all degrees of freedom at 0. The coordinates q are relative
+//! to the carrier, and v = q̇.
 //!
-//! Every joint with one degree of freedom about a fixed axis is a screw: it turns by θ or not, and slides by its advance h per θ, which is 0 for a
-//! hinge. A [`Kind`] says only that, and all kinds share what follows from it:
+//! Every joint with one degree of freedom about a fixed axis is a screw: per unit of its coordinate it turns by 1 (or
+//! 0, for a slider), and slides by its advance h (0 for a hinge). A [`Kind`] gives only these two facts; the following
+//! files derive everything else from them:
 //!
 //! | file | |
 //! |---|---|
@@ -31,10 +34,11 @@
 //!
 //! # A further kind of degree of freedom
 //!
-//! It takes a file such as `screw.rs`, and here its `mod` and its line in `kinds!`. No other code asks for the kind of a degree of freedom. The
-//! description language takes its keys from the file, and the model its numbers; the equations, the frames of links and the pictures take its turn
-//! and its advance. Without these three there are no screws, and their keys are unknown. Pages and tests stand elsewhere: `docs/reference.md`,
-//! `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
+//! To add a kind, write a file such as `screw.rs`, and add its `mod` and its line in `kinds!` here. No other code asks
+//! for the kind of a degree of freedom. The description language takes the keys from the file, and the model its
+//! numbers; the equations, the frames of links and the pictures use its turn and its advance. Without these three lines
+//! and file there are no screws, and their keys are unknown. Pages and tests must be extended besides:
+//! `docs/reference.md`, `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
 
 pub(crate) mod ball;
 mod coordinate;
@@ -62,25 +66,26 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 use written::{Spelling, Word};
 
-/// What a degree of freedom does about and along its axis.
+/// The motion of a degree of freedom about and along its axis.
 pub trait Kind: fmt::Debug {
     /// The kind of its coordinate.
     fn coordinate(&self) -> Coordinate;
 
-    /// By how much it slides along its axis per unit of its coordinate: \[m/rad\] for an angle, 1 for a length; `None` if it does not slide.
+    /// The distance that it slides along its axis per unit of its coordinate: \[m/rad\] for an angle, 1 for a length;
+    /// `None` if it does not slide.
     fn advance(&self) -> Option<Number>;
 
-    /// Its own numbers.
+    /// The numbers of this kind, such as a pitch.
     fn numbers_mut(&mut self) -> Vec<&mut Number> {
         Vec::new()
     }
 
-    /// Whether it turns about its axis, by its coordinate.
+    /// True if it turns about its axis, by its coordinate.
     fn turns(&self) -> bool {
         self.coordinate() == Coordinate::Angle
     }
 
-    /// Whether it slides along its axis.
+    /// True if it slides along its axis.
     fn slides(&self) -> bool {
         self.advance().is_some()
     }
@@ -125,11 +130,11 @@ macro_rules! kinds {
 }
 
 kinds! {
-    /// It turns.
+    /// A hinge, which turns.
     hinge::Hinge,
-    /// It slides.
+    /// A slider.
     slider::Slider,
-    /// It turns and slides.
+    /// A screw, which turns and slides.
     screw::Screw,
 }
 
@@ -147,46 +152,46 @@ pub(crate) const WORDS: &[Word] = &[
 pub enum Joint {
     /// Free rotation about the joint: a ball in space, a hinge about y in the plane. The orientation is absolute.
     Ball,
-    /// These degrees of freedom, from the carrier outwards. A weld has none.
+    /// Degrees of freedom, from the carrier outwards. A weld has none.
     Freedoms(Vec<Freedom>),
 }
 
 /// One degree of freedom.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Freedom {
-    /// Its name, unique in its joint; a Rust identifier once dashes become underscores.
+    /// Name, unique in its joint; with underscores in place of dashes, a Rust identifier.
     pub name: String,
-    /// What it does.
+    /// The kind of motion.
     pub kind: FreedomKind,
-    /// Its axis: a unit vector in the frame of the carrier, with all degrees of freedom of the joint at 0.
+    /// The axis: a unit vector in the frame of the carrier, with all degrees of freedom of the joint at 0.
     pub axis: [Number; 3],
     /// The constant that is added to the coordinate \[rad\] or \[m\].
     pub zero: Number,
     /// The coordinate at the start of a run \[rad\] or \[m\].
     pub position: Number,
-    /// Its rate at the start of a run \[rad/s\] or \[m/s\].
+    /// Rate of the coordinate at the start of a run \[rad/s\] or \[m/s\].
     pub rate: Number,
-    /// The inertia that its rate alone moves, such as the rotor of a motor behind a gear \[kg m²\] or \[kg\]. It adds ½ armature q̇² to the kinetic
-    /// energy.
+    /// The inertia of a body that moves only with this rate, such as the rotor of a motor behind a gear \[kg m²\] or
+    /// \[kg\]. It adds ½ armature q̇² to the kinetic energy.
     pub armature: Number,
-    /// The degree of freedom that gives its coordinate; `None` if it has a coordinate of its own.
+    /// The leader that determines its coordinate; `None` if it has a coordinate of its own.
     pub follows: Option<Follows>,
 }
 
 impl Freedom {
-    /// Whether it has a coordinate of its own.
+    /// True if it has a coordinate of its own.
     pub fn is_own(&self) -> bool {
         self.follows.is_none()
     }
 
-    /// Whether it moves the origin of its element along its axis.
+    /// True if it moves the origin of its element along its axis.
     pub fn slides(&self) -> bool {
         self.kind.slides()
     }
 }
 
 impl Joint {
-    /// Its degrees of freedom; none for a ball joint, whose orientation is absolute.
+    /// The degrees of freedom; none for a ball joint, whose orientation is absolute.
     pub fn freedoms(&self) -> &[Freedom] {
         match self {
             Joint::Ball => &[],
@@ -194,7 +199,7 @@ impl Joint {
         }
     }
 
-    /// Its degrees of freedom, mutable.
+    /// The degrees of freedom, mutable.
     pub fn freedoms_mut(&mut self) -> &mut [Freedom] {
         match self {
             Joint::Ball => &mut [],
@@ -202,7 +207,7 @@ impl Joint {
         }
     }
 
-    /// Whether the element turns with its carrier.
+    /// True if the element turns with its carrier.
     pub fn turns_with_carrier(&self) -> bool {
         matches!(self, Joint::Freedoms(_))
     }

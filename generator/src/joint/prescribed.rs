@@ -1,5 +1,5 @@
-//! A reference joint that does not move freely: it is at rest, is moved as given, or rides on a vehicle. It has no
-//! coordinate.
+//! A reference joint that does not move freely: it is at rest, has a prescribed motion, or rides on a vehicle. It has
+//! no coordinate.
 //!
 //! | reference joint | p | p̈ |
 //! |---|---|---|
@@ -7,7 +7,7 @@
 //! | prescribed | [x(t)](crate::model::Translation) | ẍ(t) |
 //! | riding at s on a vehicle | x + A s | ẍ + α × A s + ω × (ω × A s) |
 //!
-//! Its acceleration acts on the system as the field −p̈.
+//! The acceleration p̈ acts on the system as the field −p̈.
 
 use crate::dynamics::kinematics::Motion;
 use crate::dynamics::numbers::vector;

@@ -1,4 +1,5 @@
-//! A screw: it turns about its axis a by the angle θ = q + zero, and slides along it by h θ. Its pitch is the length of one turn: h = pitch/2π.
+//! A screw: it turns about its axis a by the angle θ = q + zero, and slides along the axis by h θ. Its pitch is the
+//! distance per full turn: h = pitch/2π.
 //!
 //! d ← d + R a h θ,   R ← R Rot(a, θ)
 //!
@@ -15,7 +16,7 @@ use crate::model::resolve::quantity::LENGTH;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// A joint that turns, and slides by this much per angle \[m/rad\].
+/// A degree of freedom that turns, and slides by this distance per angle \[m/rad\].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Screw(pub Number);
 

@@ -12,7 +12,7 @@ use crate::description::joint::Axis;
 use crate::model::Number;
 use serde::Serialize;
 
-/// A joint that slides.
+/// A degree of freedom that slides.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Slider;
 

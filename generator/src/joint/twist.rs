@@ -1,8 +1,9 @@
 //! The motion of an element on a joint with coordinates of its own, one degree of freedom after the other from the carrier outwards.
 //!
-//! A degree of freedom of advance h slides along its axis by h θ, and then turns about it by θ, or does only one of the two. R, p, ω, ε and γ are
-//! those of its inner side: γ is the acceleration of p minus that of the carrier's origin, and ε and γ hold for v̇ = 0. With θ = q + zero and the
-//! axis e = R a,
+//! A degree of freedom of advance h slides along its axis by h θ, and then turns about it by θ; or it does only one of
+//! the two. R, p, ω, ε and γ are the rotation, the position, the angular velocity, the angular acceleration and the
+//! relative acceleration of its inner side: γ is the acceleration of p minus that of the carrier's origin, and ε and γ
+//! hold for v̇ = 0. With θ = q + zero and the axis e = R a,
 //!
 //! | | origin | orientation | column H = (s, e) |
 //! |---|---|---|---|
@@ -18,13 +19,13 @@ use crate::dynamics::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 
-/// How far a kind of degree of freedom turns per unit of its coordinate, 1 or 0, and its advance.
+/// The angle by which a kind of degree of freedom turns per unit of its coordinate, 1 or 0, and its advance.
 pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &dyn Kind) -> (f64, Expr<'g>) {
     let advance = kind.advance().unwrap_or(crate::model::Number::ZERO);
     (f64::from(kind.turns()), number(graph, &advance))
 }
 
-/// The motion of an element whose joint is at `at` on its carrier, in the carrier's frame.
+/// The motion of an element. `at` is the place of its joint in the carrier's frame.
 pub fn motion<'g>(
     graph: &'g Graph,
     freedoms: &[Freedom],
@@ -44,7 +45,7 @@ pub fn motion<'g>(
     motion.offset = carrier.rotation.times(at);
     motion.turns(carrier.omega);
     motion.slide_bias = motion.gamma(motion.offset);
-    // relative to the place of the joint on the carrier
+    // displacement and its rate, relative to the place of the joint on the carrier
     let mut slid = none;
     let mut slid_rate = none;
     let mut centers: Vec<Option<Vec3<'g>>> = Vec::new();
@@ -99,7 +100,7 @@ fn turned<'g>(rotation: &Mat3<'g>, axis: Vec3<'g>, e: Vec3<'g>, angle: Expr<'g>)
         let across = a[l] * r(k) - a[k] * r(l);
         let one = graph.constant(1.0);
         match a[j].as_constant() {
-            // one component of 1 is not sufficient: a tilt of 1e-8 in the others would be below rounding
+            // it is not enough that one component is 1: a tilt of 1e-8 by the others would be below its rounding
             _ if a[k].is_zero() && a[l].is_zero() => r(j),
             Some(0.0) => cosine * r(j) + sine * across,
             _ => cosine * r(j) + sine * across + (a[j] * (one - cosine)) * e,

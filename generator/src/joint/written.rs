@@ -13,15 +13,16 @@ use crate::model::resolve::{NOWHERE, Resolver};
 
 /// A key of a joint that stands for degrees of freedom.
 pub(crate) struct Spelling {
-    /// The key. Its value is an axis or several.
+    /// The key. Its value is one axis, or several.
     pub key: Key,
-    /// Keys that belong to this spelling alone.
+    /// Further keys that only this spelling has.
     pub keys: &'static [Key],
-    /// Those of them whose numbers say which hand it has: in a mirror image they change sign.
+    /// Further keys whose numbers determine whether the joint is left- or right-handed: in a mirror image they change
+    /// sign.
     pub handed: &'static [&'static str],
-    /// The coordinates of the freedoms that it stands for, from the carrier outwards.
+    /// The coordinates of the degrees of freedom for which the key stands, from the carrier outwards.
     pub coordinates: &'static [Coordinate],
-    /// Reads these degrees of freedom; `None` if a problem is reported.
+    /// Reads these degrees of freedom; `None` after a reported problem.
     pub read: fn(&Reader<'_>) -> Option<Vec<Made>>,
 }
 
@@ -29,9 +30,9 @@ pub(crate) struct Spelling {
 pub(crate) struct Word {
     /// The word itself.
     pub word: &'static str,
-    /// Whether the joint has axes, which a mirror image would reverse.
+    /// True if the joint has axes, which a mirror image would reverse.
     pub has_axes: bool,
-    /// The joint that it stands for.
+    /// Makes the joint for which the word stands.
     pub joint: fn(&Resolver<'_>, At<'_>) -> Joint,
 }
 
@@ -44,7 +45,7 @@ pub(crate) const fn key<T: Shape>(name: &'static str) -> Key {
     }
 }
 
-/// Whether the joint has axes: true for a word with axes, and for everything that is no such word.
+/// True if a joint has axes: for a word with axes, and for everything that is no known word.
 pub(crate) fn has_axes(word: Option<&str>) -> bool {
     let known = WORDS.iter().find(|known| word == Some(known.word));
     known.is_none_or(|known| known.has_axes)
@@ -81,7 +82,7 @@ const fn keys() -> [Key; count()] {
 
 /// A degree of freedom that has no name yet.
 pub(crate) struct Made {
-    /// What it does.
+    /// The kind of motion.
     pub kind: FreedomKind,
     /// Its axis.
     pub direction: Direction,
@@ -100,9 +101,9 @@ impl Made {
 /// A unit vector in the frame of the carrier, with the name of the axis if it is an axis of the frame.
 #[derive(Clone)]
 pub(crate) struct Direction {
-    /// Its components.
+    /// The components.
     pub axis: [Number; 3],
-    /// `x`, `y` or `z`.
+    /// The name of the axis, `x`, `y` or `z`; `None` for other directions.
     pub word: Option<&'static str>,
 }
 
@@ -176,7 +177,7 @@ impl<'r> Reader<'r> {
             .add(self.place().problem(message, help));
     }
 
-    /// Reports, in a planar model, that this joint leads out of the plane; returns whether it did.
+    /// True if the model is planar, where this joint would lead out of the plane; reports this.
     pub fn leads_out_of_plane(&self, help: &str) -> bool {
         if self.planar() {
             let message = format!("a {} leads out of the plane", self.spelling.key.name);
@@ -284,7 +285,7 @@ impl<'r> Reader<'r> {
             ));
             return Direction::unnamed(0);
         }
-        // squares of such numbers would overflow, or lose their digits
+        // scales a vector whose squares would overflow or lose their digits
         let largest = vector.iter().map(|n| n.value(&resolver.defaults).abs());
         let largest = largest.fold(0.0, f64::max);
         let vector = match (1e-100..1e100).contains(&largest) {

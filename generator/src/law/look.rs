@@ -1,19 +1,20 @@
-//! What is seen of a law. Pictures, reports and animations are made of this alone.
+//! The visible parts of a law. Pictures, reports and animations use nothing else of it.
 
 use super::Asked;
 use super::types::{Belt, Ellipsoid, Plane};
 use crate::model::{Attachment, Component, Number, Projection, Quantity};
 
-/// A part of a law that is seen.
+/// A visible part of a law.
 #[derive(Clone, Debug)]
 pub enum Look<'a> {
     /// An ellipsoid.
     Round(Round<'a>),
-    /// A bag with the shape that it has when full, and the volume of its gas.
+    /// A bag: its shape when full, and the output for the volume of its gas.
     Bag(Round<'a>, Asked),
-    /// A plane, and the ellipsoid that meets it, if one does.
+    /// A plane, and the ellipsoid that meets it, if there is one.
     Plane(&'a Plane, Option<Round<'a>>),
-    /// The force on the body of an ellipsoid, at its deepest point behind a plane, or against the force.
+    /// The force on the body of an ellipsoid. It acts at the deepest point of the ellipsoid behind the plane or,
+    /// without a plane, in the direction against the force.
     Push(Round<'a>, Option<&'a Plane>),
     /// Straight lines from point to point, along which a force acts.
     Line(Line<'a>, Vec<&'a Attachment>),
@@ -22,17 +23,17 @@ pub enum Look<'a> {
 /// An ellipsoid of a body.
 #[derive(Clone, Copy, Debug)]
 pub struct Round<'a> {
-    /// Its centre.
+    /// The centre of the ellipsoid.
     pub center: &'a Attachment,
-    /// Its semi-axes \[m\].
+    /// The semi-axes \[m\].
     pub semi_axes: &'a [Number; 3],
-    /// Bryant angles of its axes relative to the body's frame \[rad\].
+    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\].
     pub axes: &'a [Number; 3],
     /// n of Σ |x_i/a_i|ⁿ = 1
     pub degree: u32,
 }
 
-/// What pulls along a line.
+/// The kind of law that pulls along a line.
 #[derive(Clone, Copy, Debug)]
 pub enum Line<'a> {
     /// A belt.
@@ -44,7 +45,7 @@ pub enum Line<'a> {
 }
 
 impl Ellipsoid {
-    /// As it is seen.
+    /// The ellipsoid as a part of a picture.
     pub fn round(&self) -> Round<'_> {
         Round {
             center: &self.center,
@@ -56,8 +57,9 @@ impl Ellipsoid {
 }
 
 impl Look<'_> {
-    /// What a picture with forces has to know of it at each time, of a force with this index: of a line the force of each segment on what is before it, of a push
-    /// the force, each along x, y and z; of a bag the volume.
+    /// The quantities that a picture with forces needs at each time, for the force with this index: for a line, the
+    /// force of each segment on the point before it; for a push, the force; each along x, y and z. For a bag, the
+    /// volume.
     pub fn asks(&self, force: usize) -> Vec<Quantity> {
         let along = |quantity: &dyn Fn(Projection) -> Quantity| -> Vec<Quantity> {
             let axes = [Component::X, Component::Y, Component::Z];

@@ -1,15 +1,17 @@
-//! The force laws, a folder for each.
+//! The force laws. Each has a folder.
 //!
 //! | file of a folder | has |
 //! |---|---|
 //! | `keys.rs` | the keys of the YAML ([`Keys`]), with what a mirror image makes of them |
-//! | `check.rs` | the checked form, and how it is made of the keys |
-//! | `terms.rs` | its numbers and terms ([`Terms`]): what each may be, what may be left out |
-//! | `force.rs` | the equations ([`Equations`]): forces and moments on bodies, events, states, powers |
+//! | `keys.rs` | the keys of the YAML ([`Keys`]), and how they change in a mirror image |
+//! | `check.rs` | the checked form, and how it is made from the keys |
+//! | `terms.rs` | its numbers and terms ([`Terms`]): the permitted values, and which parts may be left out |
 //! | `outputs.rs` | what can be asked of it, and what is seen of it ([`Outputs`], [`Measures`], [`OfLaw`], [`Look`]) |
-//!
-//! A further law is a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures and reports ask no force which law it is. Pages and tests are
-//! beside that: `docs/forces/`, `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in `tests/suite/{snapshots,invariance}.rs`.
+//! | `outputs.rs` | its outputs, and its visible parts ([`Outputs`], [`Measures`], [`OfLaw`], [`Look`]) |
+//! To add a law, add a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures
+//! and reports never ask a force which law it is. Pages and tests must be extended besides: `docs/forces/`,
+//! `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in
+//! `tests/suite/{snapshots,invariance}.rs`.
 
 pub mod airbag;
 pub mod belt;
@@ -40,36 +42,37 @@ use serde::Serialize;
 use std::fmt;
 use std::ops::{Deref, DerefMut};
 
-/// A law as written.
+/// A law as the user writes it.
 pub trait Keys: Record {
-    /// The key that names a force and says that it is this law.
+    /// The key that names a force and tells that it is of this law.
     const KEY: &'static str;
 
-    /// Two keys whose values may be exchanged: the law is the same.
+    /// Two keys whose values may be exchanged without changing the law.
     const EXCHANGEABLE: Option<[&'static str; 2]> = None;
 
-    /// Whether something can be asked of it.
+    /// True if the law has outputs.
     const OBSERVABLE: bool = true;
 
-    /// Whether outputs name a part of it behind its name: `of: user drag/head`.
+    /// True if outputs name a part of the law after its name: `of: user drag/head`.
     const HAS_PORTS: bool = false;
 
-    /// What to do about two of the same name, if it is not to call one of them otherwise.
+    /// Advice for two forces with the same name, in place of renaming one of them.
     const TWICE: Option<&'static str> = None;
 
-    /// What all laws have.
+    /// The keys that all laws have.
     fn header(&self) -> Header<'_>;
 
-    /// The checked form; what is wrong is reported, and none where nothing sensible can be made of it.
+    /// The checked form. Problems are reported; `None` if they leave no useful law.
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind>;
 
-    /// Its records, in the order of the reference page.
+    /// The records of the law's keys, in the order of the reference page.
     fn records() -> Vec<(&'static str, &'static [Key])>;
 
-    /// Makes the mirror image of a copy, but for its name.
+    /// Turns a copy of the force, apart from its name, into its mirror image.
     fn mirror(_: &Expander<'_>, _image: &mut Node) {}
 
-    /// Makes the mirror image of a copy of a force; none where there is none, which is reported.
+    /// Turns a copy of a force into its mirror image, with its name. `None`, with a report, if the force has no mirror
+    /// image.
     fn image(expander: &mut Expander<'_>, force: &Node, image: &mut Node) -> Option<()> {
         expander.image_of_named(force, image, Self::KEY)?;
         Self::mirror(expander, image);
@@ -77,69 +80,71 @@ pub trait Keys: Record {
     }
 }
 
-/// What all laws have as written.
+/// The keys that all laws have, as written.
 pub struct Header<'a> {
-    /// By which outputs and messages call it.
+    /// Name of the force in outputs and messages.
     pub name: String,
-    /// The key under which the user gave it a name, and the name.
+    /// The key under which the user names the force, and the name.
     pub called: Option<(&'static str, &'a str)>,
-    /// Whether it acts.
+    /// False if the force is switched off.
     pub enabled: Option<bool>,
-    /// The switch from which on it acts.
+    /// The switch after which the force acts.
     pub since: Option<&'a str>,
-    /// The switch up to which it acts.
+    /// The switch up to which the force acts.
     pub until: Option<&'a str>,
 }
 
-/// What a law is made of: its bodies, its numbers, its terms.
+/// The constituents of a law: its bodies, its numbers, its terms.
 pub trait Terms: fmt::Debug {
-    /// Adds everything of it but what the dimension does not have.
+    /// Adds all terms and numbers of the law, except those that do not exist in this dimension.
     fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>);
 
-    /// Leaves out what cannot do anything without what is absent.
+    /// Removes terms that have no effect without another term that is absent.
     fn settle(&mut self) {}
 
-    /// Leaves out axes of what is the same in all directions.
+    /// Removes the axes of parts that are the same in all directions, such as spheres.
     fn forget_directions(&mut self, _: Dimension) {}
 
-    /// Adds what several of its numbers must keep together, where that is judged before each of them.
+    /// Adds conditions on several numbers together that must be checked before those on each number.
     fn require_first(&self, _: Dimension, _: &mut List<'_>) {}
 
-    /// Adds what several of its numbers must keep together.
+    /// Adds conditions on several numbers together.
     fn require(&self, _: Dimension, _: Curves<'_>, _: &mut List<'_>) {}
 
-    /// Its bodies, as far as they may be vehicles.
+    /// The bodies of the law that may be vehicles.
     fn bodies_mut(&mut self) -> Vec<&mut Body> {
         Vec::new()
     }
 
-    /// The switches that it waits for by itself: indices into [`Model::switches`].
+    /// The switches that the law itself waits for: indices into [`Model::switches`].
     fn switches_mut(&mut self) -> Vec<&mut usize> {
         Vec::new()
     }
 
-    /// Whether there is such a law in the plane.
+    /// True if the law exists in the plane.
     fn exists_in_plane(&self) -> bool {
         true
     }
 
-    /// Makes of a law in space what is left of it in the plane x–z; false where that is nothing.
+    /// Reduces a law in space to its part in the plane x–z. Returns false if nothing is left.
     fn flatten(&mut self) -> bool;
 
-    /// Makes of a planar law one in space that does the same in the plane; numbers are those at these parameters.
+    /// Turns a planar law into one in space that acts in the same way in the plane. Numbers are evaluated at these
+    /// values of the parameters.
     fn embed(&mut self, _defaults: &[f64]) {}
 }
 
-/// How a law becomes forces and moments on bodies.
+/// The equations of a law: it becomes forces and moments on bodies.
 pub trait Equations {
-    /// Applies it.
+    /// Applies the law to the bodies, and returns its measures.
     fn apply<'g>(
         &self,
         setting: Setting<'_, 'g>,
         applied: &mut AppliedForces<'g>,
     ) -> Box<dyn Measures<'g> + 'g>;
 
-    /// What must not be negative for it to have a meaning in a run that starts with this motion, and how a message says so.
+    /// An expression that must not be negative for the law to make sense in a run that starts with this motion, and its
+    /// text in messages.
     fn condition<'g>(
         &self,
         _graph: &'g Graph,
@@ -150,28 +155,29 @@ pub trait Equations {
     }
 }
 
-/// What a law is applied in.
+/// The surroundings in which a law is applied.
 #[derive(Clone, Copy)]
 pub struct Setting<'a, 'g> {
-    /// Where expressions are made.
+    /// The graph in which expressions are made.
     pub graph: &'g Graph,
     /// The whole model.
     pub model: &'a Model,
-    /// Its motion.
+    /// The motion of the model.
     pub motion: &'a Motion<'g>,
-    /// Its motion where a run starts.
+    /// The motion of the model at the start of a run.
     pub start: &'a Motion<'g>,
     /// Index of the force in the model.
     pub index: usize,
-    /// Its name.
+    /// Name of the force.
     pub name: &'a str,
-    /// When it acts.
+    /// Condition under which the force acts.
     pub gate: Gate<'g>,
 }
 
-/// What can be asked of a law.
+/// The outputs and visible parts of a law.
 pub trait Outputs {
-    /// What an output asks of it, and the unit; reported where there is no such thing. `force` is its index.
+    /// The quantity that an output asks for, and its unit. `None`, with a report, if the law has no such quantity.
+    /// `force` is the index of the force.
     fn output(
         &self,
         resolver: &Resolver<'_>,
@@ -180,15 +186,15 @@ pub trait Outputs {
         at: At<'_>,
     ) -> Option<(Quantity, &'static str)>;
 
-    /// What is seen of it.
+    /// The visible parts of the law.
     fn looks(&self) -> Vec<Look<'_>> {
         Vec::new()
     }
 }
 
-/// Expressions of what can be asked of a law.
+/// Expressions of the quantities of a law.
 pub trait Measures<'g> {
-    /// The force on each of its points \[N\], for [`Quantity::ForceOn`] and [`Quantity::ForceOnPoints`].
+    /// The force on each point of the law \[N\], for [`Quantity::ForceOn`] and [`Quantity::ForceOnPoints`].
     fn on(&self) -> Vec<Vec3<'g>> {
         Vec::new()
     }
@@ -197,40 +203,40 @@ pub trait Measures<'g> {
     fn value(&self, asked: &Asked) -> Option<Value<'g>>;
 }
 
-/// Of a law that has nothing to ask.
+/// The measures of a law without outputs.
 impl<'g> Measures<'g> for () {
     fn value(&self, _: &Asked) -> Option<Value<'g>> {
         None
     }
 }
 
-/// A value of a law.
+/// The value of a quantity of a law.
 pub enum Value<'g> {
     /// A number.
     Scalar(Expr<'g>),
-    /// One number of a vector in absolute axes.
+    /// A component, or the magnitude, of a vector in absolute axes.
     Along(Projection, Vec3<'g>),
 }
 
-/// A quantity of a law.
+/// A quantity of a law, for outputs.
 pub trait OfLaw: fmt::Debug {
-    /// Of a vector: which number of it.
+    /// For a vector, the projection that is asked for.
     fn projection_mut(&mut self) -> Option<&mut Projection> {
         None
     }
 
-    /// Of a vector: which component of it, or its resultant.
+    /// For a vector, the component that is asked for, or its magnitude.
     fn component(&self) -> Option<Component> {
         None
     }
 
-    /// Whether it is not 0 by itself in the plane x–z.
+    /// False if the quantity is always 0 in the plane x–z.
     fn exists_in_plane(&self) -> bool {
         true
     }
 }
 
-/// There is nothing to ask.
+/// The quantities of a law that has none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Nothing {}
 
@@ -241,17 +247,17 @@ pub trait Law: Terms + Equations + Outputs {}
 
 impl<L: Terms + Equations + Outputs> Law for L {}
 
-/// What the language knows of a law.
+/// Facts about a law for reading and checking models.
 pub struct Registered {
-    /// The key that names a force.
+    /// The key that names a force of this law.
     pub key: &'static str,
-    /// What it is called, with its article.
+    /// Name of the law with its article.
     pub title: &'static str,
-    /// Reports what does not have its shape.
+    /// Reports values that do not have the shape of this law.
     pub shape: fn(At<'_>, &Problems),
-    /// Reads it.
+    /// Reads a force of this law.
     pub read: fn(&serde_yaml::Value) -> Result<Written, Misfit>,
-    /// Its records, in the order of the reference page.
+    /// The records of the law's keys, in the order of the reference page.
     pub records: fn() -> Vec<(&'static str, &'static [Key])>,
     /// As [`Keys::image`].
     pub image: fn(&mut Expander<'_>, &Node, &mut Node) -> Option<()>,
@@ -264,7 +270,7 @@ pub struct Registered {
 }
 
 impl Registered {
-    /// What it is called, without an article: "joint force", "spring".
+    /// Name of the law without its article: "joint force", "spring".
     pub fn called(&self) -> &'static str {
         self.title
             .split_once(' ')
@@ -272,33 +278,33 @@ impl Registered {
     }
 }
 
-/// A record: what it is called, and its keys.
+/// The title of a record, and its keys.
 pub(crate) fn record<R: Record>() -> (&'static str, &'static [Key]) {
     (R::TITLE, R::KEYS)
 }
 
-/// Registers the laws, in the order of the reference page: the folder and the struct of its keys, the structs of its checked forms, and what can be
-/// asked of it.
+/// Registers the laws, in the order of the reference page. For each: the folder, the struct of its keys, the structs of
+/// its checked forms, and the type of its quantities.
 macro_rules! laws {
     ($(
         $(#[$of_keys:meta])*
         $folder:ident::$keys:ident { $($(#[$of_law:meta])* $law:ident,)* } asks $asked:ty;
     )*) => {
-        /// The checked forms of all laws, and what can be asked of them.
+        /// The checked forms of all laws, and the types of their quantities.
         pub mod types {
             $(pub use super::$folder::check::*;
             #[allow(unused_imports, reason = "some laws have nothing to ask")]
             pub use super::$folder::outputs::*;)*
         }
 
-        /// A force as written.
+        /// A force as the user writes it.
         #[derive(Clone, Debug)]
         pub enum Written {
             $($(#[$of_keys])* $keys(Box<$folder::keys::$keys>),)*
         }
 
         impl Written {
-            /// What the language knows of its law.
+            /// Facts about the law of this force.
             pub fn law(&self) -> &'static Registered {
                 let key = match self {
                     $(Written::$keys(_) => <$folder::keys::$keys as Keys>::KEY,)*
@@ -306,14 +312,14 @@ macro_rules! laws {
                 LAWS.iter().find(|law| law.key == key).unwrap_or(&LAWS[0])
             }
 
-            /// What all laws have.
+            /// The keys that all laws have.
             pub fn header(&self) -> Header<'_> {
                 match self {
                     $(Written::$keys(law) => law.header(),)*
                 }
             }
 
-            /// Its checked form.
+            /// The checked form; `None` if there is none.
             pub(crate) fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
                 match self {
                     $(Written::$keys(law) => law.check(resolver, at),)*
@@ -321,7 +327,7 @@ macro_rules! laws {
             }
         }
 
-        /// The laws.
+        /// All laws.
         pub const LAWS: &[Registered] = &[$(Registered {
             key: <$folder::keys::$keys as Keys>::KEY,
             title: <$folder::keys::$keys as Record>::TITLE,
@@ -398,7 +404,7 @@ macro_rules! laws {
 }
 
 laws! {
-    /// In a joint.
+    /// A law in a joint.
     joint::Joint {
         /// Torques about the relative rotations of a joint.
         Joint,
@@ -440,7 +446,7 @@ laws! {
         /// A given force and moment on an element.
         Load,
     } asks Nothing;
-    /// By a function of the user's.
+    /// A force by a function of the user's.
     user::User {
         /// Forces computed by a function of the user's.
         User,

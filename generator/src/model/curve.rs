@@ -1,16 +1,16 @@
-//! Curves at plain numbers: y(x) = y_k + m s + c₂ s² + c₃ s³, s = x − x_k, for x_k ≤ x < x_{k+1}; its slope, inverse and
-//! integrals.
+//! Curves evaluated at plain numbers: y(x) = y_k + m s + c₂ s² + c₃ s³, s = x − x_k, for x_k ≤ x < x_{k+1}; with slope,
+//! inverse and integrals.
 //!
-//! A compiled model has its curves as constants of fixed length (`bryant_runtime::curve`); here they come from the model
-//! as read, with the same rules at the points and beyond the outermost ones. Lines have c₂ = c₃ = 0. Of cubics, m at a
-//! point is chosen from the secants Δ of the pieces beside it such that what is monotone in the points stays monotone
-//! between them: 0 where they differ in sign, else their weighted harmonic mean (Fritsch and Butland 1984), which keeps
-//! m ≤ 3Δ on either side (Fritsch and Carlson 1980).
+//! A compiled model has its curves as constants of fixed length (`bryant_runtime::curve`); here they come from the
+//! model as read, with the same rules at the points and beyond the outermost ones. Lines have c₂ = c₃ = 0. The slope m
+//! of a cubic at a point follows from the secants Δ of the pieces on both sides of the point, so that the curve is
+//! monotone wherever its points are: m is 0 if the secants differ in sign, otherwise their weighted harmonic mean
+//! (Fritsch and Butland 1984), which keeps m ≤ 3Δ on either side (Fritsch and Carlson 1980).
 
 use super::{Curve, Extrapolate, Interpolate};
 
 impl Curve {
-    /// Whether it is everywhere the line through 0 that it begins as, to a rounding of its points.
+    /// True if the curve is one straight line through 0, up to rounding of its points.
     pub fn is_proportional(&self) -> bool {
         let size = |axis: usize| {
             self.points
@@ -25,7 +25,7 @@ impl Curve {
         self.extrapolate == Extrapolate::Linear && self.points.iter().all(|p| off(*p) <= rounding)
     }
 
-    /// Value at `x`; NaN outside the points of a curve that must not be left.
+    /// Value at `x`; NaN if `x` is outside a curve that must not be left.
     pub fn value(&self, x: f64) -> f64 {
         let Some((s, y, [m, c2, c3])) = self.at(x) else {
             return f64::NAN;
@@ -33,7 +33,7 @@ impl Curve {
         ((c3 * s + c2) * s + m) * s + y
     }
 
-    /// Slope at `x`, at a point that of the piece to its right; NaN outside the points of a curve that must not be left.
+    /// Slope at `x`, at a point that of the piece to its right; NaN if `x` is outside a curve that must not be left.
     pub fn slope(&self, x: f64) -> f64 {
         let Some((s, _, [m, c2, c3])) = self.at(x) else {
             return f64::NAN;
@@ -41,7 +41,7 @@ impl Curve {
         (3.0 * c3 * s + 2.0 * c2) * s + m
     }
 
-    /// Second derivative at `x`, with the same rules.
+    /// Second derivative at `x`, with the same rules as the slope.
     pub fn second_derivative(&self, x: f64) -> f64 {
         let Some((s, _, [_, c2, c3])) = self.at(x) else {
             return f64::NAN;
@@ -49,7 +49,7 @@ impl Curve {
         6.0 * c3 * s + 2.0 * c2
     }
 
-    /// The smallest abscissa on a rising piece at which the value is `y`, NaN where there is none.
+    /// The smallest abscissa on a rising piece at which the value is `y`; NaN if there is none.
     pub fn inverse(&self, y: f64) -> f64 {
         let points = &self.points;
         let last = points.len() - 1;
@@ -76,11 +76,11 @@ impl Curve {
         }
     }
 
-    /// Where the curve is not smooth, increasing: where its slope changes, or of cubics the second derivative, at the
-    /// outermost points by what lies beyond. Rounding does not count.
+    /// The abscissae at which the curve is not smooth, in increasing order: where its slope changes or, for cubics, its
+    /// second derivative. At the outermost points, the extrapolation counts. Differences due to rounding do not count.
     pub fn kinks(&self) -> Vec<f64> {
         let last = self.points.len() - 1;
-        // how far off the slope of a piece may be
+        // bound of the rounding error in the slope of a piece
         let off = |k: usize| {
             let ([x0, y0], [x1, y1]) = (self.points[k], self.points[k + 1]);
             let [x, y] = [x0.abs() + x1.abs(), y0.abs() + y1.abs()];
@@ -95,7 +95,7 @@ impl Curve {
             if end && self.extrapolate == Extrapolate::Error {
                 return false;
             }
-            // slope and second derivative on either side
+            // slope and second derivative on both sides of the point
             let (before, after) = (self.coefficients(*k), self.coefficients(k + 1));
             let h = if *k == 0 { 0.0 } else { self.length(k - 1) };
             let [slope, bend] = [
@@ -108,7 +108,7 @@ impl Curve {
             });
             match self.interpolate {
                 Interpolate::Linear => (after[0] - slope).abs() > slope_off,
-                // its slope is continuous but where it is left
+                // the slope of a cubic is continuous, except at the end of a held curve
                 Interpolate::Cubic => {
                     let left = end && self.extrapolate == Extrapolate::Hold;
                     (2.0 * after[1] - bend).abs() > bend_off || left && self.tangent(*k) != 0.0
@@ -119,7 +119,8 @@ impl Curve {
         kinked.map(|k| self.points[k][0]).collect()
     }
 
-    /// The intervals on which it is 0, increasing, as long as possible; ±∞ where it stays so beyond its points.
+    /// The longest intervals on which the curve is 0, in increasing order; an end is ±∞ if the curve remains 0 beyond
+    /// its points.
     pub fn idle(&self) -> Vec<[f64; 2]> {
         let last = self.points.len() - 1;
         let mut idle: Vec<[f64; 2]> = Vec::new();
@@ -148,7 +149,7 @@ impl Curve {
                 _ => idle.push([self.points[last][0], f64::INFINITY]),
             }
         }
-        // lines that go on straight
+        // straight continuation beyond the outermost points
         if self.extrapolate == Extrapolate::Linear {
             for interval in &mut idle {
                 if interval[0] == self.points[0][0] {
@@ -162,7 +163,8 @@ impl Curve {
         idle
     }
 
-    /// A function whose sign changes at the kinks: the distance to the nearest one, 1 where there is none.
+    /// The breakpoint indicator: the distance to the nearest kink, with a sign that changes at each kink; 1 if there is
+    /// no kink.
     pub fn breakpoint_indicator(&self, x: f64) -> f64 {
         let kinks = self.kinks();
         if x.is_nan() {
@@ -186,15 +188,15 @@ impl Curve {
         self.integrals(x)[0]
     }
 
-    /// ∬ y dx dx from 0 to `x`: the displacement of what starts at rest with the curve as its acceleration.
+    /// ∬ y dx dx from 0 to `x`: for a curve that is an acceleration, the displacement from rest.
     pub fn double_integral(&self, x: f64) -> f64 {
         self.integrals(x)[1]
     }
 
-    /// Slope at a point: of a cubic the one it has there, of a line that of the piece to the right.
+    /// Slope at point `k`: for a cubic its slope there, for lines the slope of the piece to the right.
     ///
     /// # Panics
-    /// If there is no such point.
+    /// If there is no point `k`.
     pub fn tangent(&self, k: usize) -> f64 {
         let last = self.points.len() - 1;
         if self.interpolate == Interpolate::Linear {
@@ -202,7 +204,7 @@ impl Curve {
         }
         let end = k == 0 || k == last;
         match self.extrapolate {
-            // so that the slope does not jump where the curve is left
+            // avoids a jump of the slope at the end of the curve
             Extrapolate::Hold if end => 0.0,
             _ if last == 1 => self.secant(0),
             _ if k == 0 => self.end_tangent([0, 1]),
@@ -220,7 +222,7 @@ impl Curve {
         }
     }
 
-    /// Whether all of its slopes and coefficients are numbers.
+    /// True if all slopes and coefficients of the curve are finite.
     pub fn is_finite(&self) -> bool {
         let pieces = 0..=self.points.len();
         pieces
@@ -228,8 +230,8 @@ impl Curve {
             .all(f64::is_finite)
     }
 
-    /// Whether every piece ends where the next begins. Where it does not, lengths or slopes are beyond what a number can be, or
-    /// lost their digits at its lower end.
+    /// True if every piece ends where the next begins. Otherwise lengths or slopes overflow, or have lost their digits
+    /// by underflow.
     pub fn is_joined(&self) -> bool {
         // far above rounding, which is a few units in the last place of the ordinates
         const TOLERANCE: f64 = 1e-9;
@@ -241,8 +243,8 @@ impl Curve {
         })
     }
 
-    /// Slope at an end by the parabola through three points, limited so that the piece stays monotone. Given the piece at
-    /// the end and the one beside it.
+    /// Slope at an end, by the parabola through three points, limited so that the piece stays monotone. `outer` is the
+    /// piece at the end, `inner` the piece beside it.
     fn end_tangent(&self, [outer, inner]: [usize; 2]) -> f64 {
         let [h, next] = [self.length(outer), self.length(inner)];
         let [secant, beside] = [self.secant(outer), self.secant(inner)];
@@ -256,7 +258,7 @@ impl Curve {
         }
     }
 
-    /// s, y_k and (m, c₂, c₃) at `x`; `None` where the curve has no value, and for NaN.
+    /// s, y_k and (m, c₂, c₃) at `x`; `None` if the curve has no value there, and for NaN.
     fn at(&self, x: f64) -> Option<(f64, f64, [f64; 3])> {
         let last = self.points.len() - 1;
         if x.is_nan() || self.forbidden(x) {
@@ -264,7 +266,7 @@ impl Curve {
         }
         // piece 0 lies left of the first point, piece k + 1 right of point k
         let mut piece = self.points.partition_point(|point| point[0] <= x);
-        // the last point still belongs to a curve that must not be left, what is right of it does not
+        // the last point still belongs to a curve that must not be left; an abscissa to the right of it does not
         if self.extrapolate == Extrapolate::Error {
             piece = piece.min(last);
         }
@@ -272,7 +274,7 @@ impl Curve {
         Some((x - x_k, y_k, self.coefficients(piece)))
     }
 
-    /// m, c₂, c₃ of a piece.
+    /// The coefficients m, c₂, c₃ of a piece.
     fn coefficients(&self, piece: usize) -> [f64; 3] {
         let last = self.points.len() - 1;
         if piece == 0 || piece > last {
@@ -293,14 +295,14 @@ impl Curve {
         }
     }
 
-    /// s in the rising piece from point `k`, where the curve is `y` above that point.
+    /// s in the rising piece from point `k` at which the curve is `y` above that point.
     fn solve(&self, k: usize, y: f64) -> f64 {
         let [m, c2, c3] = self.coefficients(k + 1);
         if self.interpolate == Interpolate::Linear {
             return y / m;
         }
         let (mut low, mut high) = (0.0, self.length(k));
-        // halved until no number is left between
+        // bisection until no number lies between the bounds
         while low < 0.5 * (low + high) && 0.5 * (low + high) < high {
             let s = 0.5 * (low + high);
             if ((c3 * s + c2) * s + m) * s < y {
@@ -312,7 +314,7 @@ impl Curve {
         if y > 0.0 { high } else { 0.0 }
     }
 
-    /// First and second integral from 0 to `x`, exactly, piece by piece.
+    /// First and second integral from 0 to `x`, exact for each piece.
     fn integrals(&self, x: f64) -> [f64; 2] {
         if x.is_nan() {
             return [f64::NAN; 2];
@@ -329,7 +331,7 @@ impl Curve {
             let Some((from, y_k, [m, c2, c3])) = self.at(middle) else {
                 return [f64::NAN; 2];
             };
-            // the polynomial of the piece about a
+            // expands the polynomial of the piece about the middle of the interval
             let s = from - 0.5 * h;
             let y = ((c3 * s + c2) * s + m) * s + y_k;
             let slope = (3.0 * c3 * s + 2.0 * c2) * s + m;
@@ -342,7 +344,7 @@ impl Curve {
         [first, second]
     }
 
-    /// True where the curve has no value.
+    /// True if `x` is outside a curve that must not be left.
     fn forbidden(&self, x: f64) -> bool {
         let outside = x < self.points[0][0] || x > self.points[self.points.len() - 1][0];
         self.extrapolate == Extrapolate::Error && outside
@@ -352,7 +354,7 @@ impl Curve {
         self.points[k + 1][0] - self.points[k][0]
     }
 
-    /// Slope of the line from point `k` to the next.
+    /// Slope of the line from point `k` to the next point.
     fn secant(&self, k: usize) -> f64 {
         let [[x0, y0], [x1, y1]] = [self.points[k], self.points[k + 1]];
         (y1 - y0) / (x1 - x0)

@@ -1,15 +1,16 @@
-//! The digest of a model: SHA-256 of a text in which every field stands under its name.
+//! The digest of a model: SHA-256 of a text that contains every field with its name.
 //!
 //! | | in the text |
 //! |---|---|
-//! | fields of a record, by their names in order | `{name=value;…}`, but for those that are absent, false or empty |
+//! | fields of a record, sorted by name | `{name=value;…}`, without fields that are absent, false or empty |
 //! | a list | `[value;…]` |
-//! | one of several kinds | `!name value`, or the name alone |
+//! | a variant of an enumeration | `!name value`, or the name alone |
 //! | a text | its length in bytes, `:` and its bytes |
-//! | a number | the shortest decimal that is read back as the same |
+//! | a number | the shortest decimal that reads back as the same number |
 //!
-//! So neither the order of fields nor types of this program matter, and a feature that a model does not use does not change its digest: a new field is an
-//! `Option`, a flag or a list. A field or kind that gets another name keeps the one in the text by `#[serde(rename = "…")]`.
+//! So the digest depends neither on the order of fields nor on types of this program, and a feature that a model does
+//! not use does not change its digest: a new field must be an `Option`, a flag or a list. A field or variant that is
+//! renamed keeps its old name in the text by `#[serde(rename = "…")]`.
 
 use super::Model;
 use serde_yaml::Value;
@@ -17,8 +18,8 @@ use sha2::{Digest, Sha256};
 use std::fmt::Write;
 
 impl Model {
-    /// SHA-256 of everything that the model says of a motion and its outputs, as lower-case hexadecimal: two models in normal form have the same if and only if
-    /// their modules have the same text.
+    /// SHA-256, in lower-case hexadecimal, of all parts of the model that affect a motion or an output: two models in
+    /// normal form have the same digest if and only if their modules have the same text.
     pub fn sha256(&self) -> String {
         let mut text = String::new();
         // a model is made of records, lists, texts and numbers, all of which have a value

@@ -1,19 +1,19 @@
-//! Loading and unloading along different curves: a law that contacts, belts and joints share.
+//! Hysteresis: loading and unloading along different curves; used by contacts, belts and joints.
 
 use super::{Number, ScaledCurve};
 use serde::Serialize;
 
-/// What unloading adds to the curve of loading f: a steep line of slope s whose foot p is remembered.
+/// The unloading law of a loading curve f: a steep line of slope s, whose foot p is remembered.
 ///
-/// F(x; p) = clamp(s (x − p), u(x), f(x)), and after an accepted step p is such that the line passes through (x, F). In a joint it is so on
-/// both sides of 0, where f is 0.
+/// F(x; p) = clamp(s (x − p), u(x), f(x)). After an accepted step, p is such that the line passes through (x, F). In a
+/// joint this holds on both sides of 0, where f is 0.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Hysteresis {
-    /// u, nowhere above the curve of loading at the default parameters: the foot is drawn back where the line meets it.
-    /// Without it u = 0 and the foot only ever advances: it is the permanent set.
+    /// u, nowhere above the loading curve at the default parameters; the foot moves back when the line meets u. `None`
+    /// for u = 0: the foot then only advances, and is the permanent set.
     pub unloading: Option<ScaledCurve>,
-    /// s, at the default parameters at least the steepest slope of both curves.
+    /// s; at the default parameters it is at least the steepest slope of both curves.
     pub slope: Number,
-    /// p where nothing was loaded yet: the line then passes through (0, f(0)).
+    /// p before anything was loaded: the line then passes through (0, f(0)).
     pub foot: Number,
 }

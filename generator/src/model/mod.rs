@@ -1,10 +1,10 @@
-//! The model resolved: indices instead of names, SI instead of units, every reference and every number proven.
+//! The resolved model: indices instead of names, SI instead of units, every reference and every number checked.
 //!
-//! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from
-//! [`read`] and [`read_str`], which report every problem they find; whoever holds one may rely on:
-//! each system is one tree with parents before children; names are unique; masses are positive and inertias realisable
-//! at the default parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and
-//! the mass matrix is not structurally singular.
+//! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from [`read`] and
+//! [`read_str`], which report every problem they find. Every [`Model`] has these properties: each system is one tree
+//! with parents before children; names are unique; masses are positive and inertias realisable at the default
+//! parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and the mass matrix
+//! is not structurally singular.
 
 mod curve;
 mod digest;
@@ -36,40 +36,41 @@ pub use scene::Scene;
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
 pub use units::Units;
 
-/// A whole scene: systems of elements, the forces between them, what is to be printed.
+/// A whole scene: systems of elements, the forces between them, and outputs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
     /// Name of the model, kebab-case as in the YAML.
     pub name: String,
-    /// One sentence for listings; empty where the YAML gives none.
+    /// One sentence for listings; empty if the YAML has none.
     pub title: String,
     /// Motion in the x–z plane or in space.
     pub dimension: Dimension,
-    /// Which coordinates describe orientation.
+    /// The coordinates that describe orientation.
     pub coordinates: Coordinates,
-    /// What the YAML left adjustable.
+    /// Numbers that the YAML leaves adjustable.
     pub parameters: Vec<Parameter>,
     /// Piecewise functions of one variable.
     pub curves: Vec<Curve>,
-    /// Bodies whose motion is given.
+    /// Bodies whose motion is prescribed.
     pub vehicles: Vec<Vehicle>,
-    /// The trees.
+    /// Systems of elements, each a tree.
     pub systems: Vec<System>,
-    /// What acts on them.
+    /// Forces that act on the systems.
     pub forces: Vec<Force>,
-    /// What happens once and is waited for.
+    /// Events that happen at most once, and that forces wait for.
     pub switches: Vec<Switch>,
-    /// What the scene asks to see, in the order of the table's columns.
+    /// The outputs of the scene, in the order of the table's columns.
     pub outputs: Vec<Output>,
     /// Duration and sampling of a run.
     pub run: Run,
-    /// Surfaces that meet nothing, and meshes, for pictures; at the default parameters.
+    /// Surfaces that take part in no contact, and meshes: for pictures only, at the default parameters.
     #[serde(skip)]
     pub shown: Vec<Shown>,
     /// The units in which outputs are shown.
     #[serde(skip)]
     pub units: Units,
-    /// SHA-256 of all of the above that changes a motion or an output, as lower-case hexadecimal: of what the text means, not of how it is written. See [`Model::sha256`].
+    /// SHA-256, in lower-case hexadecimal, of all of the above that affects a motion or an output. It depends on the
+    /// meaning of the text, not on the way in which it is written. See [`Model::sha256`].
     #[serde(skip)]
     pub digest: String,
 }
@@ -83,80 +84,80 @@ pub enum Dimension {
     Space,
 }
 
-/// How orientation is described in space. In the plane there is one angle either way.
+/// The coordinates that describe orientation in space. In the plane there is one angle either way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Coordinates {
     /// A unit quaternion (w, x, y, z), local to absolute; the velocity is ω in absolute axes. No singularity.
     Quaternion,
-    /// Bryant angles, A = Rx(φ₁) Ry(φ₂) Rz(φ₃), absolute; the velocity is φ̇. Singular where cos φ₂ = 0:
-    /// near there a run goes over to angles in another chart.
+    /// Absolute Bryant angles, A = Rx(φ₁) Ry(φ₂) Rz(φ₃); the velocity is φ̇. Singular at cos φ₂ = 0: near there a run
+    /// changes to the angles of another chart.
     Bryant,
 }
 
-/// A number that may be changed without compiling again.
+/// A number that may be changed without recompiling.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Parameter {
     /// A Rust identifier in snake case.
     pub name: String,
-    /// Value where nobody sets another (SI).
+    /// Value unless the user sets another (SI).
     pub default: f64,
     /// Smallest value allowed (SI).
     pub min: Option<f64>,
     /// Largest value allowed (SI).
     pub max: Option<f64>,
-    /// SI unit as text, "" where the number has none or it is unknown.
+    /// SI unit as text; "" if the number has none or it is unknown.
     pub unit: String,
 }
 
 /// A function through points (SI).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
-    /// Name in the YAML, or one made of the force it was written in ("belt chest force").
+    /// Name in the YAML, or a name made from the force in which the curve is written ("belt chest force").
     pub name: String,
     /// (abscissa, ordinate), abscissae strictly increasing, at least two points.
     pub points: Vec<[f64; 2]>,
-    /// What holds between the points.
+    /// Interpolation between the points.
     pub interpolate: Interpolate,
-    /// What holds outside the points.
+    /// Extrapolation beyond the points.
     pub extrapolate: Extrapolate,
-    /// Whether the description says so: a run in which a curve is left that was merely not told otherwise deserves a doubt.
+    /// True if the description states the extrapolation. Otherwise a run that leaves the curve raises a doubt.
     pub told: bool,
-    /// What was left out of its file; `None` if nothing was.
+    /// Points of the curve's file that were left out; `None` if there are none.
     #[serde(skip)]
     pub thinned: Option<Thinned>,
 }
 
-/// Points that a curve does not have, because its file has too many.
+/// Facts about the points that were left out of a curve, because its file has too many.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Thinned {
     /// Number of points in the file.
     pub points: usize,
-    /// Largest distance of the points that were left out from the curve, in the SI unit of its ordinate.
+    /// Largest distance between the curve and the points that were left out, in the SI unit of its ordinate.
     pub error: f64,
 }
 
-/// Value of a curve between its points.
+/// Interpolation of a curve between its points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub enum Interpolate {
     /// Straight lines.
     #[default]
     Linear,
-    /// Cubics with a common slope at each point ([`Curve::tangent`]), monotone where the points are.
+    /// Cubics with a common slope at each point ([`Curve::tangent`]), monotone wherever the points are.
     Cubic,
 }
 
-/// Value of a curve beyond its first and last point.
+/// Extrapolation of a curve beyond its first and last point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Extrapolate {
-    /// The outermost segment goes on, or the line that touches the outermost point.
+    /// The outermost segment continues; for cubics, its tangent at the outermost point.
     Linear,
-    /// The outermost value stays.
+    /// The outermost value is held.
     Hold,
-    /// Leaving the range is a failure of the run: the curve yields NaN there.
+    /// The curve is NaN there, so that a run that leaves the range fails.
     Error,
 }
 
-/// A curve scaled: `times · curve(argument / stretch)`.
+/// A scaled curve: `times · curve(argument / stretch)`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScaledCurve {
     /// Index into [`Model::curves`].
@@ -165,22 +166,24 @@ pub struct ScaledCurve {
     pub times: Number,
     /// Factor on the abscissa, positive.
     pub stretch: Number,
-    /// Whether it is a line through 0 that was written as its slope, `stiffness`: the factor is then never negative.
+    /// True if the curve is a line through 0 that is written as its slope, `stiffness`: `times` must then not be
+    /// negative.
     pub stiffness: bool,
 }
 
-/// A rigid body whose motion is given: it has no mass and no equation. Every vehicle of a model is used by something.
+/// A rigid body whose motion is prescribed: it has neither mass nor equations. In a model, something refers to every
+/// vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Vehicle {
     /// Name, unique among the vehicles and systems.
     pub name: String,
-    /// Position of its origin at t = 0, absolute frame \[m\].
+    /// Position of the origin at t = 0, absolute frame \[m\].
     pub position: [Number; 3],
-    /// Velocity of its origin at t = 0, as far as curves do not say it \[m/s\].
+    /// Velocity of the origin at t = 0, less the part that curves determine \[m/s\].
     pub velocity: [Number; 3],
-    /// How the origin moves.
+    /// Motion of the origin.
     pub translation: Translation,
-    /// Bryant angles, absolute \[rad\]; curves have a continuous slope. In the plane only the second (about y) is used.
+    /// Absolute Bryant angles \[rad\]; curves have a continuous slope. In the plane only the second (about y) is used.
     pub angles: [FieldComponent; 3],
     /// The angles at t = 0 \[rad\].
     pub angles_at_start: [Number; 3],
@@ -193,50 +196,51 @@ pub struct System {
     pub name: String,
     /// Elements, parents before children; element 0 is the root, whose origin is the reference joint.
     pub elements: Vec<Element>,
-    /// What the reference joint does.
+    /// Motion of the reference joint.
     pub reference: Reference,
     /// Initial position of the reference joint, absolute frame \[m\]. In the plane the second component is 0.
     pub position: [Number; 3],
-    /// Initial velocity of the reference joint, absolute frame \[m/s\]; where it is prescribed, as far as its curves do not
-    /// say it.
+    /// Initial velocity of the reference joint, absolute frame \[m/s\]; if its motion is prescribed, less the part that
+    /// curves determine.
     pub velocity: [Number; 3],
 }
 
 /// Motion of a reference joint.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Reference {
-    /// Its coordinates are unknowns.
+    /// Its coordinates are unknowns of the equations of motion.
     Free,
-    /// It stays where [`System::position`] puts it.
+    /// It stays at [`System::position`].
     Fixed,
-    /// It moves as given, from [`System::position`] with [`System::velocity`].
+    /// It moves as prescribed, from [`System::position`] with [`System::velocity`].
     Prescribed(Translation),
-    /// It moves with a point of a vehicle; [`System::position`] is where that is at t = 0.
+    /// It moves with a point of a vehicle, which is at [`System::position`] at t = 0.
     Riding {
         /// Index into [`Model::vehicles`].
         vehicle: usize,
-        /// The point, the vehicle's local frame \[m\].
+        /// The point in the vehicle's local frame \[m\].
         at: [Number; 3],
     },
 }
 
-/// A given translation x(t), per absolute axis from the position x₀ and the velocity v₀ of a start:
+/// A prescribed translation x(t) along each absolute axis, from the start position x₀ and the start velocity v₀:
 ///
 /// x = x₀ + c,   x = x₀ + v₀ t + ∫ c   or   x = x₀ + v₀ t + ∬ c
 ///
-/// with a curve of time c, or none, which is 0. All else follows in closed form.
+/// with a curve of time c; c is 0 if there is none. Velocity and acceleration follow in closed form.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Translation {
-    /// Which of the three the curves are.
+    /// Which of these three formulas applies.
     pub given: Given,
-    /// Per absolute axis; displacements are 0 at t = 0 and have a continuous slope, and their v₀ is 0.
+    /// The curve c for each absolute axis. A displacement is 0 at t = 0 and has a continuous slope, and its v₀ is 0.
     pub curves: [Option<ScaledCurve>; 3],
-    /// Where what is accelerated stays as soon as its velocity is 0, along each axis that has a curve: the line from 0 to 1, held there. Of
-    /// time over the time at which that is, it says how much of the motion is over.
+    /// Present if a motion given by acceleration stops as soon as its velocity is 0, along each axis that has a curve:
+    /// the line from 0 to 1, held at both ends. Its abscissa is the time divided by the time of the stop; its value is
+    /// the fraction of the motion that is over.
     pub stops: Option<ScaledCurve>,
 }
 
-/// What curves give of a motion.
+/// The quantity that the curves of a prescribed motion give.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Given {
     /// Displacement from the start \[m\].
@@ -250,13 +254,13 @@ pub enum Given {
 /// One rigid element.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Element {
-    /// Name, unique in its system; a Rust identifier once dashes are underscores.
+    /// Name, unique in its system; with underscores in place of dashes, a Rust identifier.
     pub name: String,
-    /// Index of the parent in the same system; `None` for element 0 alone.
+    /// Index of the parent in the same system; `None` for element 0 only.
     pub parent: Option<usize>,
-    /// The joint on the parent, parent's local frame \[m\]; zero for the root.
+    /// Position of the joint in the parent's local frame \[m\]; zero for the root.
     pub at: [Number; 3],
-    /// What the joint lets it do.
+    /// The joint: its freedoms relative to the parent.
     pub joint: Joint,
     /// Mass \[kg\].
     pub mass: Number,
@@ -264,32 +268,32 @@ pub struct Element {
     pub cg: [Number; 3],
     /// Principal moments of inertia about the centre of gravity \[kg m²\]. In the plane only the second (about y) is used.
     pub inertia: [Number; 3],
-    /// Bryant angles of the principal axes relative to the local frame \[rad\]; zero where the axes are the frame's.
+    /// Bryant angles of the principal axes relative to the local frame \[rad\]; zero if the axes coincide.
     pub axes: [Number; 3],
-    /// Initial Bryant angles on a ball joint, absolute \[rad\]. In the plane only the second (about y) is used.
+    /// Initial absolute Bryant angles on a ball joint \[rad\]. In the plane only the second (about y) is used.
     pub angles: [Number; 3],
     /// Initial angular velocity on a ball joint: in space ω in absolute axes \[rad/s\]; in the plane only the second component is used.
     pub angular_velocity: [Number; 3],
 }
 
 impl System {
-    /// Whether all its joints are balls, or hinges in the plane: every orientation is absolute then.
+    /// True if all joints are ball joints, or hinges in the plane: then every orientation is absolute.
     pub fn has_balls_alone(&self) -> bool {
         self.elements.iter().all(|e| e.joint == Joint::Ball)
     }
 
-    /// All freedoms of its joints.
+    /// The freedoms of all joints.
     pub fn freedoms(&self) -> impl Iterator<Item = &Freedom> {
         self.elements.iter().flat_map(|e| e.joint.freedoms())
     }
 
-    /// Whether a freedom follows another: then more of S is not 0 than the tree says.
+    /// True if a freedom follows another: then S has more nonzero entries than the tree implies.
     pub fn is_coupled(&self) -> bool {
         self.freedoms().any(|freedom| !freedom.is_own())
     }
 }
 
-/// Place of an element: system and element index.
+/// Identifies an element: index of the system, and of the element in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct ElementId {
     /// Index into [`Model::systems`].
@@ -298,7 +302,7 @@ pub struct ElementId {
     pub element: usize,
 }
 
-/// What a point or a plane is attached to.
+/// A body that a point or a plane is attached to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Body {
     /// The absolute frame.
@@ -321,27 +325,28 @@ pub struct Attachment {
 /// A named force interaction.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Force {
-    /// Name as in the YAML: "chest", or the element's path for a joint ("man/head"). Unique among its kind.
+    /// Name as in the YAML: "chest"; for a joint force, the path of the element ("man/head"). Unique among forces of
+    /// the same law.
     pub name: String,
     /// The law.
     pub kind: ForceKind,
-    /// When it acts.
+    /// The switches between which the force acts.
     pub active: Active,
 }
 
 /// Coulomb friction with a linear ramp through zero speed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Friction {
-    /// Joint: torque \[N m\]. Contact: coefficient μ.
+    /// Limit of friction. Joint: torque \[N m\]. Contact: coefficient μ.
     pub limit: Number,
-    /// Speed below which friction is proportional to speed \[rad/s\] or \[m/s\]; positive.
+    /// Speed up to which friction is proportional to speed \[rad/s\] or \[m/s\]; positive.
     pub tolerance: Number,
 }
 
-/// One component of an acceleration field, or of a given load; the torque of a motor.
+/// One component of an acceleration field or of a given load, or the torque of a motor.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum FieldComponent {
-    /// Constant.
+    /// A constant.
     Constant(Number),
     /// A curve of time \[s\].
     Curve(ScaledCurve),
@@ -350,7 +355,7 @@ pub enum FieldComponent {
 /// A bristle by which friction holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bristle {
-    /// Deflection at which friction is fully there \[m\], in joints of what turns \[rad\].
+    /// Deflection at which friction reaches its limit \[m\]; \[rad\] in joints that turn.
     pub displacement: Number,
 }
 
@@ -359,42 +364,43 @@ pub struct Bristle {
 pub struct Output {
     /// Heading, unique.
     pub name: String,
-    /// What is measured.
+    /// The quantity that is measured.
     pub quantity: Quantity,
     /// SI unit of the values.
     pub unit: String,
     /// Channel code of ISO-MME, 16 letters and digits, unique.
     pub code: Option<String>,
-    /// The filter that tables, responses and studies apply: `CFC60`, `CFC180`, `CFC600` or `CFC1000`, of SAE J211-1 with `SAE` in front. The generated code has what
-    /// is not filtered.
+    /// The filter that tables, responses and studies apply: `CFC60`, `CFC180`, `CFC600` or `CFC1000`; those of SAE
+    /// J211-1 with `SAE` in front. Generated code returns unfiltered values.
     pub filter: Option<&'static str>,
-    /// What it is as a channel of a test: of an output with a code that says a direction, or that the criteria name.
+    /// The output as a channel of a test, for an output whose code gives a direction, or that the criteria name.
     pub channel: Option<Channel>,
 }
 
-/// An output in the axes and signs of SAE J211-1 and ISO 6487: x forward, y to the right, z down; loads are those of the lower part on the
-/// upper one, of a body that stands.
+/// An output in the axes and signs of SAE J211-1 and ISO 6487: x forward, y to the right, z down. Loads are those of
+/// the lower part on the upper part of a body that stands upright.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Channel {
-    /// Whether it is the opposite of the quantity.
+    /// True if the channel has the opposite sign of the quantity.
     pub reversed: bool,
-    /// What is to be known of its place.
+    /// A remark on the place of measurement.
     #[serde(skip)]
     pub remark: Option<&'static str>,
 }
 
-/// By what a run is judged.
+/// The criteria by which a run is judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Criteria {
     /// The regulation.
     pub standard: String,
     /// The dummy.
     pub dummy: String,
-    /// Whether filters are those of SAE J211-1, and not of ISO 6487.
+    /// True for the filters of SAE J211-1, false for those of ISO 6487.
     pub sae: bool,
-    /// Test object and position of the occupant, the first two characters of the codes of its outputs; `None` if there is one only.
+    /// Test object and position of the occupant: the first two characters of the codes of its outputs; `None` if there
+    /// is only one occupant.
     pub occupant: Option<String>,
-    /// The places of the dummy that are known, such as `neck-fx`, each with the name of the output that is there.
+    /// The known places of the dummy, such as `neck-fx`, each with the name of the output that measures there.
     pub places: Vec<(String, String)>,
 }
 
@@ -411,17 +417,17 @@ pub enum Component {
     Resultant,
 }
 
-/// One number of a vector.
+/// One component of a vector, along the axes of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Projection {
-    /// Which component.
+    /// The component.
     pub component: Component,
-    /// The body along whose axes.
+    /// The body whose axes are used.
     pub axes: Body,
 }
 
 impl Projection {
-    /// In absolute axes.
+    /// A component along the absolute axes.
     pub fn absolute(component: Component) -> Projection {
         Projection {
             component,
@@ -431,121 +437,123 @@ impl Projection {
 }
 
 impl Projection {
-    /// Whether it is not 0 by itself, of a vector in the plane x–z.
+    /// True if this component of a vector in the plane x–z can differ from 0.
     pub fn lies_in_plane(self) -> bool {
         self.component != Component::Y
     }
 
-    /// Whether it is not 0 by itself, of a vector along y.
+    /// True if this component of a vector along y can differ from 0.
     pub fn is_about_y(self) -> bool {
         matches!(self.component, Component::Y | Component::Resultant)
     }
 }
 
-/// What an output measures.
+/// A quantity that an output measures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Quantity {
     /// Kinematics of a point of an element or a vehicle.
     Point {
         /// The body; never the absolute frame.
         body: Body,
-        /// The point, local frame \[m\]; the centre of gravity is resolved to its coordinates.
+        /// The point in the local frame \[m\]; the centre of gravity is resolved to its coordinates.
         at: [Number; 3],
-        /// Which derivative; of an element alone what an accelerometer reads.
+        /// The kind of kinematic quantity. The reading of an accelerometer exists for elements only.
         what: PointQuantity,
-        /// The body that the observer rides on.
+        /// The body that the observer moves with.
         relative_to: Body,
-        /// Which component.
+        /// The component.
         projection: Projection,
     },
     /// Rotation of an element or a vehicle; in the plane the component is always [`Component::Y`].
     Rotation {
         /// The body; never the absolute frame.
         body: Body,
-        /// Which derivative.
+        /// The angle or one of its derivatives.
         what: RotationQuantity,
-        /// The body that the observer rides on.
+        /// The body that the observer moves with.
         relative_to: Body,
-        /// Which component. Of angles X, Y, Z are the first, second, third Bryant angle, and the resultant is the angle of the one
-        /// turn that leads from the observer's axes to those of the body; axes mean nothing.
+        /// The component. For angles, X, Y, Z are the first, second, third Bryant angle, and the resultant is the angle
+        /// of the single rotation from the observer's axes to those of the body; `axes` has no meaning.
         projection: Projection,
     },
-    /// What a joint transmits.
+    /// Force or moment that a joint transmits.
     JointLoad {
         /// The element that the joint carries.
         element: ElementId,
-        /// What of it.
+        /// Force or moment.
         what: JointLoadQuantity,
-        /// Whether that on the carrier is meant, which is opposite to that on the element.
+        /// True for the load on the carrier, which is opposite to that on the element.
         on_carrier: bool,
-        /// Which component.
+        /// The component.
         projection: Projection,
     },
-    /// The force of a law between two bodies on one of them.
+    /// The force of a law between two bodies, on one of them.
     ForceOn {
         /// Index into [`Model::forces`].
         force: usize,
-        /// Whether that on the second body is meant, which is opposite to that on the first: the first is that of a contact's
-        /// `ellipsoid`, or of the end `from`.
+        /// True for the force on the second body, which is opposite to that on the first. The first body is that of a
+        /// contact's `ellipsoid`, or of the end `from`.
         on_second: bool,
-        /// Which component.
+        /// The component.
         projection: Projection,
     },
-    /// Of a freedom of a joint.
+    /// The coordinate of a freedom of a joint, or a derivative.
     Freedom {
         /// The element that the joint carries.
         element: ElementId,
-        /// Index into its freedoms.
+        /// Index of the freedom among those of the joint.
         freedom: usize,
-        /// Which derivative of its coordinate.
+        /// The coordinate or one of its derivatives.
         what: FreedomQuantity,
     },
-    /// The force of a belt that runs through rings, or of an airbag, on one of its bodies, of all its points there.
+    /// The force on one body by a belt that runs through rings, or by an airbag: the sum over all points of the law on
+    /// this body.
     ForceOnPoints {
         /// Index into [`Model::forces`].
         force: usize,
-        /// The points on that body: of a belt from its end `from` on, of an airbag what it is on and then what it meets.
+        /// The points on that body. The points of a belt are numbered from its end `from`; those of an airbag are its
+        /// own body, then the bodies that it meets.
         points: Vec<usize>,
-        /// Which component.
+        /// The component.
         projection: Projection,
     },
     /// A quantity of a law.
     OfForce {
         /// Index into [`Model::forces`].
         force: usize,
-        /// What of it.
+        /// The quantity.
         what: Asked,
     },
-    /// Of a switch.
+    /// A quantity of a switch.
     Switch {
         /// Index into [`Model::switches`].
         switch: usize,
-        /// What of it.
+        /// The quantity.
         what: SwitchQuantity,
     },
-    /// Of a whole system.
+    /// A quantity of a whole system.
     System {
         /// Index into [`Model::systems`].
         system: usize,
-        /// What of it.
+        /// The quantity.
         what: SystemQuantity,
-        /// Which component, where it is a vector.
+        /// The component, if the quantity is a vector.
         projection: Projection,
     },
-    /// Arithmetic of others.
+    /// An arithmetic expression of other quantities.
     Formula(Box<Formula>),
 }
 
-/// Arithmetic of quantities, in SI.
+/// An arithmetic expression of quantities, in SI.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Formula {
-    /// The arithmetic. Its parameters are not those of the model, but the indices of the leaves.
+    /// The expression. Its parameters are indices into `leaves`, not parameters of the model.
     pub value: Number,
-    /// What it is made of.
+    /// The operands of the expression.
     pub leaves: Vec<Leaf>,
 }
 
-/// What stands in a formula.
+/// An operand of a formula.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Leaf {
     /// An expression of the model's parameters.
@@ -555,7 +563,7 @@ pub enum Leaf {
 }
 
 impl Quantity {
-    /// What is looked at: of a formula all that stands in it, of others themselves.
+    /// The measured quantities: for a formula all its operands that are quantities, otherwise the quantity itself.
     pub fn leaves(&self) -> Vec<&Quantity> {
         let Quantity::Formula(formula) = self else {
             return vec![self];
@@ -567,7 +575,7 @@ impl Quantity {
         leaves.collect()
     }
 
-    /// The same, to be changed.
+    /// Like [`leaves`](Self::leaves), mutable.
     pub fn leaves_mut(&mut self) -> Vec<&mut Quantity> {
         match self {
             Quantity::Formula(formula) => {
@@ -581,10 +589,10 @@ impl Quantity {
         }
     }
 
-    /// Whether it is the length of a vector.
+    /// True if the quantity is the magnitude of a vector.
     pub fn is_resultant(&self) -> bool {
         match self {
-            // in the plane one number
+            // the angle of rotation in the plane is a single number
             Quantity::Rotation {
                 what: RotationQuantity::Angle,
                 ..
@@ -605,7 +613,7 @@ impl Quantity {
     }
 }
 
-/// What a joint transmits.
+/// A load that a joint transmits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum JointLoadQuantity {
     /// Force at the joint \[N\].
@@ -614,7 +622,7 @@ pub enum JointLoadQuantity {
     Moment,
 }
 
-/// Kinematics of a point, as an observer sees it who rides on a body.
+/// Kinematics of a point, as seen by an observer who moves with a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum PointQuantity {
     /// Position relative to the origin of the observer's frame \[m\].
@@ -625,11 +633,11 @@ pub enum PointQuantity {
     Velocity,
     /// Second derivative of the position \[m/s²\].
     Acceleration,
-    /// What an accelerometer reads there: acceleration less every field that acts on the element \[m/s²\].
+    /// Reading of an accelerometer: acceleration less that of every field that acts on the element \[m/s²\].
     Accelerometer,
 }
 
-/// Rotation of a body, as an observer sees it who rides on another.
+/// Rotation of a body, as seen by an observer who moves with another body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum RotationQuantity {
     /// (Bryant) angle \[rad\].
@@ -640,18 +648,18 @@ pub enum RotationQuantity {
     AngularAcceleration,
 }
 
-/// Of a freedom of a joint.
+/// The coordinate of a freedom of a joint, or a derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum FreedomQuantity {
-    /// Its coordinate \[rad\] or \[m\].
+    /// The coordinate \[rad\] or \[m\].
     Position,
-    /// Its rate.
+    /// Rate of the coordinate.
     Rate,
-    /// The rate of that.
+    /// Second derivative of the coordinate.
     Acceleration,
 }
 
-/// Of a system.
+/// A quantity of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SystemQuantity {
     /// Kinetic energy \[J\].
@@ -667,7 +675,7 @@ pub enum SystemQuantity {
 /// Duration and sampling of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Run {
-    /// \[s\], positive.
+    /// Duration \[s\], positive.
     pub duration: f64,
     /// Time between samples \[s\], positive.
     pub every: f64,

@@ -1,8 +1,8 @@
-//! The normal form of a model: what is not there leaves nothing behind.
+//! The normal form of a model: parts that have no effect leave no trace.
 //!
-//! A coefficient that is 0, a curve that is 0 everywhere, a force all of whose terms are out, a curve that nothing uses
-//! and a parameter that no number mentions are dropped, and so is what they alone gave a meaning: two descriptions that
-//! differ in nothing but such mentions have one model, one digest, and one text.
+//! The normal form drops coefficients that are 0, curves that are 0 everywhere, forces without any term, curves that
+//! nothing uses, parameters that no number mentions, and everything that had a meaning only together with these. So two
+//! descriptions that differ only in such parts have the same model, the same digest and the same text.
 
 use super::part::Part;
 use super::{Active, Body, Dimension, Given, Model, Number, Quantity, Reference, Translation};
@@ -12,7 +12,7 @@ impl Model {
     pub fn normalize(&mut self) {
         let dimension = self.dimension;
         if dimension == Dimension::Plane {
-            // There is no choice.
+            // In the plane there is no choice.
             self.coordinates = super::Coordinates::Quaternion;
         }
         for number in self.numbers_mut() {
@@ -44,7 +44,7 @@ impl Model {
         self.digest = self.sha256();
     }
 
-    /// Axes of what is the same in all directions say nothing.
+    /// Resets axes of parts that are the same in all directions.
     fn forget_directions(&mut self) {
         let dimension = self.dimension;
         for element in self.systems.iter_mut().flat_map(|s| &mut s.elements) {
@@ -58,7 +58,7 @@ impl Model {
         }
     }
 
-    /// Drops forces that do nothing and that no output looks at.
+    /// Drops forces that have no effect and that no output observes.
     fn drop_idle(&mut self) {
         let dimension = self.dimension;
         let acts = self.forces.iter().map(|f| f.kind.acts(dimension));
@@ -78,7 +78,7 @@ impl Model {
         self.keep_forces(&keep);
     }
 
-    /// Keeps some of the forces, at least those that outputs look at.
+    /// Keeps some of the forces; these must include all that outputs observe.
     pub(crate) fn keep_forces(&mut self, keep: &[bool]) {
         let new = renumbered(keep);
         for force in looked_at(self).filter_map(Quantity::force_mut) {
@@ -87,7 +87,7 @@ impl Model {
         retain(&mut self.forces, keep);
     }
 
-    /// Drops the vehicles that nothing uses; those left keep their order.
+    /// Drops vehicles that nothing refers to; the others keep their order.
     fn keep_used_vehicles(&mut self) {
         let mut used = vec![false; self.vehicles.len()];
         for_each_vehicle(self, &mut |vehicle| used[*vehicle] = true);
@@ -104,7 +104,7 @@ impl Model {
         retain(&mut self.vehicles, &used);
     }
 
-    /// Drops the curves that nothing uses; those left keep their order.
+    /// Drops curves that nothing uses; the others keep their order.
     fn keep_used_curves(&mut self) {
         let mut used = vec![false; self.curves.len()];
         for curve in self.curve_uses_mut() {
@@ -117,7 +117,7 @@ impl Model {
         retain(&mut self.curves, &used);
     }
 
-    /// By switch, whether something waits for it or looks at it.
+    /// For each switch, true if a force waits for it, or an output or a used switch observes it.
     pub fn used_switches(&mut self) -> Vec<bool> {
         let mut used = vec![false; self.switches.len()];
         loop {
@@ -129,7 +129,7 @@ impl Model {
         }
     }
 
-    /// Drops the parameters on which nothing depends; those left keep their order.
+    /// Drops parameters on which nothing depends; the others keep their order.
     fn keep_used_parameters(&mut self) {
         let mut used = vec![false; self.parameters.len()];
         for number in self.numbers_mut() {
@@ -170,7 +170,7 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
     }
 }
 
-/// A motion whose curves are out is uniform, whatever they would have given.
+/// Replaces a prescribed motion without any curve by uniform motion, whatever its curves would have given.
 fn settle(translation: &mut Translation) {
     for curve in translation.curves.iter_mut().filter(|curve| !curve.is_in()) {
         curve.leave_out();
@@ -181,7 +181,7 @@ fn settle(translation: &mut Translation) {
     }
 }
 
-/// What outputs and switches look at.
+/// The quantities that outputs and switches observe.
 fn looked_at(model: &mut Model) -> impl Iterator<Item = &mut Quantity> {
     let outputs = model.outputs.iter_mut();
     let outputs = outputs.flat_map(|output| output.quantity.leaves_mut());
@@ -189,7 +189,7 @@ fn looked_at(model: &mut Model) -> impl Iterator<Item = &mut Quantity> {
     outputs.chain(switches.filter_map(|switch| switch.trigger.quantity_mut()))
 }
 
-/// Drops the switches that nothing waits for; those left keep their order.
+/// Drops switches that are not used; the others keep their order.
 fn keep_used_switches(model: &mut Model) {
     let used = model.used_switches();
     let mut kept = 0;
@@ -205,7 +205,7 @@ fn keep_used_switches(model: &mut Model) {
     model.switches.retain(|_| flags.next() == Some(true));
 }
 
-/// Every index of a switch in forces, outputs, and the triggers of the switches in use.
+/// Visits every index of a switch in forces, in outputs, and in the triggers of used switches.
 fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut usize)) {
     for force in &mut model.forces {
         let Active { since, until } = &mut force.active;
@@ -223,20 +223,20 @@ fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut 
     }
 }
 
-/// Zero has no sign.
+/// Turns −0 into 0.
 fn unsigned_zero(number: &mut Number) {
     if let Number::Constant(value) = number {
         *value += 0.0;
     }
 }
 
-/// The index of each that is kept among those kept.
+/// For each entry, its index among those that are kept.
 fn renumbered(keep: &[bool]) -> Vec<usize> {
     let mut next = 0;
     let number = |&kept: &bool| {
         let index = next;
         next += usize::from(kept);
-        // What is not kept is never asked for, but for a curve scaled by 0.
+        // Only a curve scaled by 0 refers to an entry that is not kept.
         if kept { index } else { 0 }
     };
     keep.iter().map(number).collect()

@@ -1,14 +1,14 @@
-//! A number of a model: known when the code is generated, or an expression of parameters.
+//! A number of a model: a constant, or an expression of parameters.
 
 use serde::Serialize;
 
 /// A number in SI units.
 ///
-/// Arithmetic on parameters is kept as a tree until the equations are derived; whatever is constant is a
-/// [`Number::Constant`] by then (see the constructors).
+/// Arithmetic on parameters remains a tree until the equations are derived; the constructors turn constant expressions
+/// into [`Number::Constant`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Number {
-    /// Known now.
+    /// A number that is known when the code is generated.
     Constant(f64),
     /// Index into [`Model::parameters`](super::Model::parameters).
     Parameter(usize),
@@ -36,7 +36,7 @@ impl Number {
     /// Zero.
     pub const ZERO: Number = Number::Constant(0.0);
 
-    /// −a, folded.
+    /// −a, simplified.
     pub fn negative(a: Number) -> Number {
         match a {
             Number::Constant(a) => Number::Constant(-a),
@@ -45,7 +45,7 @@ impl Number {
         }
     }
 
-    /// a + b, folded.
+    /// a + b, simplified.
     pub fn sum(a: Number, b: Number) -> Number {
         match (a, b) {
             (Number::Constant(a), Number::Constant(b)) => Number::Constant(a + b),
@@ -55,7 +55,7 @@ impl Number {
         }
     }
 
-    /// a − b, folded.
+    /// a − b, simplified.
     pub fn difference(a: Number, b: Number) -> Number {
         match (a, b) {
             (Number::Constant(a), Number::Constant(b)) => Number::Constant(a - b),
@@ -65,7 +65,7 @@ impl Number {
         }
     }
 
-    /// a · b, folded.
+    /// a · b, simplified.
     pub fn product(a: Number, b: Number) -> Number {
         match (a, b) {
             (Number::Constant(a), Number::Constant(b)) => Number::Constant(a * b),
@@ -76,7 +76,7 @@ impl Number {
         }
     }
 
-    /// a / b, folded.
+    /// a / b, simplified.
     pub fn quotient(a: Number, b: Number) -> Number {
         match (a, b) {
             (Number::Constant(a), Number::Constant(b)) => Number::Constant(a / b),
@@ -86,7 +86,7 @@ impl Number {
         }
     }
 
-    /// The smaller of a and b, folded.
+    /// The smaller of a and b, simplified.
     pub fn smaller(a: Number, b: Number) -> Number {
         match (a, b) {
             (Number::Constant(a), Number::Constant(b)) => Number::Constant(a.min(b)),
@@ -94,7 +94,7 @@ impl Number {
         }
     }
 
-    /// √a, folded.
+    /// √a, simplified.
     pub fn square_root(a: Number) -> Number {
         match a {
             Number::Constant(a) => Number::Constant(a.sqrt()),
@@ -102,7 +102,7 @@ impl Number {
         }
     }
 
-    /// sin a, folded.
+    /// sin a, simplified.
     pub fn sine(a: Number) -> Number {
         match a {
             Number::Constant(a) => Number::Constant(libm::sin(a)),
@@ -110,7 +110,7 @@ impl Number {
         }
     }
 
-    /// cos a, folded.
+    /// cos a, simplified.
     pub fn cosine(a: Number) -> Number {
         match a {
             Number::Constant(a) => Number::Constant(libm::cos(a)),
@@ -123,7 +123,7 @@ impl Number {
         self.constant() == Some(0.0)
     }
 
-    /// The value, where it is known now.
+    /// The value, if the number is a constant.
     pub fn constant(&self) -> Option<f64> {
         match self {
             Number::Constant(value) => Some(*value),
@@ -131,7 +131,7 @@ impl Number {
         }
     }
 
-    /// Calls for each parameter mentioned, by its index.
+    /// Calls `visit` with the index of each parameter in the number.
     pub fn for_each_parameter(&self, visit: &mut dyn FnMut(usize)) {
         match self {
             Number::Constant(_) => {}
@@ -150,7 +150,7 @@ impl Number {
         }
     }
 
-    /// The number with something else in the place of each parameter, folded.
+    /// The number with another number in place of each parameter, simplified.
     pub fn with_parameters(&self, by: &dyn Fn(usize) -> Number) -> Number {
         let of = |a: &Number| a.with_parameters(by);
         match self {

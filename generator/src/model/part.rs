@@ -1,10 +1,10 @@
-//! What a law is made of: its bodies, its numbers, and its terms, each of which may be absent.
+//! The constituents of a law: its bodies, its numbers, and its terms, each of which may be absent.
 //!
-//! law = geometry + Σ terms, a term being one summand of the force that a coefficient or a curve calls for
+//! law = geometry + Σ terms. A term is one summand of the force, which exists because of a coefficient or a curve.
 //!
-//! Every struct of a law is taken apart here without `..`: a field that is added to one does not compile until it is
-//! said here what it is. What is said here is all that the vocabulary of effects, the normal form of a model and the
-//! scene with nothing left out know of a law.
+//! Every struct of a law is destructured here without `..`, so that a new field does not compile until it is declared
+//! here. The vocabulary of effects, the normal form of a model, and the scene with nothing left out know nothing of a
+//! law but these declarations.
 
 use super::rule::{Rule, Ruled};
 use super::{
@@ -13,28 +13,30 @@ use super::{
     Quantity, Reference, ScaledCurve, Switch, System, Translation, Trigger, Vehicle,
 };
 
-/// Something of a law.
+/// A constituent of a law.
 pub enum Field<'a> {
-    /// A body that feels it.
+    /// A body that the law acts on.
     Body(Body),
-    /// A number of its geometry, always there: the path of its key, what it may be, and it.
+    /// A number of the geometry, which is always present: the path of its key, its rule, the number.
     Number(String, Rule, &'a mut Number),
     /// A term, which may be absent.
     Term(Term, &'a mut dyn Part),
 }
 
-/// What a term is called.
+/// Name and rules of a term.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// For people: "friction", in space with its axis: "friction about x".
+    /// The name for users: "friction", in space with its axis: "friction about x".
     pub name: String,
-    /// Its key below the force: `friction`, `about.x.friction`, `acceleration[0]`; further ones say the same in another way.
+    /// The key below the force: `friction`, `about.x.friction`, `acceleration[0]`. Further keys are other ways to write
+    /// the same term.
     pub keys: Vec<String>,
-    /// What has to be there for it to do anything; empty where it acts alone.
+    /// The term without which this one has no effect; empty if this term acts alone.
     pub needs: &'static str,
-    /// What its number may be, where it is one that does not say so itself.
+    /// The rule for the term's number, if the number has no rule of its own.
     pub rule: Rule,
-    /// True for what cannot be there with a coefficient of 0, and so is not added to a scene that does not have it.
+    /// True if the term cannot be present with a coefficient of 0; it is then not added to a scene that does not have
+    /// it.
     pub as_written: bool,
 }
 
@@ -63,17 +65,17 @@ impl Term {
 
 /// A part of a law that may be absent.
 pub trait Part {
-    /// True where it is there and not 0 whatever the motion.
+    /// True if the part is present and not 0 for every motion.
     fn is_in(&self) -> bool;
     /// Makes it absent.
     fn leave_out(&mut self);
-    /// Makes it present where it is absent: run-time parameters take the place of all that would be 0.
+    /// Makes an absent part present, with run-time parameters in place of all numbers that would be 0.
     fn put_in(&mut self, fresh: &mut Fresh<'_>);
-    /// What is 0 where it is written, but out.
+    /// The reason for the part to be out although it is written, as a clause.
     fn zero(&self) -> &'static str {
         "the coefficient is 0"
     }
-    /// Its numbers, and what each may be.
+    /// Its numbers, with the rule of each.
     fn numbers(&mut self) -> Vec<Ruled<'_>>;
     /// The curves that it uses.
     fn curves(&mut self) -> Vec<&mut ScaledCurve> {
@@ -220,8 +222,8 @@ impl Part for Option<FieldComponent> {
     }
 }
 
-/// Implements [`Part`] for what is as it is: not 0 where it is written, and not added to a scene that does not have it. Its numbers stand
-/// below its key by their names.
+/// Implements [`Part`] for structs that are never 0 if written, and are not added to a scene that does not have them.
+/// The keys of their numbers are below the key of the struct, by the names of the fields.
 macro_rules! as_written {
     ($($part:ident { $($number:ident: $rule:ident),* } { $($optional:ident: $may:ident),* } [$($curve:ident),*] $(- $rest:ident)*;)*) => {$(
         impl Part for Option<$part> {
@@ -259,7 +261,7 @@ macro_rules! as_written {
 }
 pub(crate) use as_written;
 
-/// The curve of unloading, and the line that leads to it.
+/// The unloading curve, and the steep line that leads to it.
 impl Part for Option<Hysteresis> {
     fn is_in(&self) -> bool {
         self.is_some()
@@ -290,7 +292,7 @@ impl Part for Option<Hysteresis> {
     }
 }
 
-/// By what friction holds.
+/// The bristle by which friction holds.
 impl Part for Option<Bristle> {
     fn is_in(&self) -> bool {
         self.is_some()
@@ -307,13 +309,13 @@ impl Part for Option<Bristle> {
     }
 }
 
-/// Where parameters and curves for absent parts come from.
+/// A source of parameters and curves for parts that become present.
 pub struct Fresh<'a> {
-    /// The model's parameters; new ones are added.
+    /// The parameters of the model, to which new ones are added.
     pub parameters: &'a mut Vec<Parameter>,
-    /// The model's curves; one is added where it is wanted.
+    /// The curves of the model, to which a straight line is added if it is needed.
     pub curves: &'a mut Vec<Curve>,
-    /// The curve added.
+    /// Index of the added line.
     pub line: Option<usize>,
 }
 
@@ -356,14 +358,14 @@ impl Fresh<'_> {
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl ForceKind {
-    /// Everything of a law but what the dimension does not have.
+    /// All constituents of a law that exist in this dimension.
     pub fn fields(&mut self, dimension: Dimension) -> Vec<Field<'_>> {
         let mut fields = Vec::new();
         (**self).fields(dimension, &mut fields);
         fields
     }
 
-    /// Leaves out what cannot do anything without what is absent, and absent parts in any other form.
+    /// Removes terms that have no effect without an absent term, and brings absent parts to one common form.
     pub fn settle(&mut self, dimension: Dimension) {
         for field in self.fields(dimension) {
             if let Field::Term(_, part) = field
@@ -375,7 +377,7 @@ impl ForceKind {
         (**self).settle();
     }
 
-    /// The terms, and whether each is in.
+    /// The terms, each with true if it is present.
     pub fn terms(&self, dimension: Dimension) -> Vec<(Term, bool)> {
         let mut copy = self.clone();
         let fields = copy.fields(dimension).into_iter();
@@ -386,7 +388,7 @@ impl ForceKind {
         terms.collect()
     }
 
-    /// Whether it does anything: a term that acts alone is in.
+    /// True if the law has an effect: a term that acts alone is present.
     pub fn acts(&self, dimension: Dimension) -> bool {
         let mut terms = self.terms(dimension).into_iter();
         terms.any(|(term, is_in)| is_in && term.needs.is_empty())
@@ -403,13 +405,13 @@ pub(crate) fn attachment<'a>(
     finite(at, key, fields);
 }
 
-/// Numbers that may be any, of one key.
+/// Adds three numbers with the same key, of any finite value.
 pub(crate) fn finite<'a>(numbers: &'a mut [Number; 3], key: &str, fields: &mut Vec<Field<'a>>) {
     let numbers = numbers.iter_mut();
     fields.extend(numbers.map(|number| Field::Number(key.to_owned(), Rule::Finite, number)));
 }
 
-/// A vector's components, those that the dimension has.
+/// Adds the components of a vector that exist in this dimension.
 pub(crate) fn components<'a>(
     components: &'a mut [FieldComponent; 3],
     name: &str,
@@ -487,7 +489,7 @@ fn of_switch(switch: &mut Switch) -> Vec<&mut Number> {
 }
 
 impl Model {
-    /// Every number of the model, wherever it stands.
+    /// All numbers of the model.
     pub fn numbers_mut(&mut self) -> Vec<&mut Number> {
         let dimension = self.dimension;
         let Model {
@@ -515,7 +517,7 @@ impl Model {
                 match field {
                     Field::Body(_) => {}
                     Field::Number(_, _, number) => numbers.push(number),
-                    // A term of a law lives as long as the law.
+                    // The borrow of a term lasts as long as that of the law.
                     Field::Term(_, part) => {
                         numbers.extend(part.numbers().into_iter().map(|ruled| ruled.number));
                     }
@@ -537,7 +539,7 @@ impl Model {
         numbers
     }
 
-    /// Every use of a curve.
+    /// All uses of curves.
     pub fn curve_uses_mut(&mut self) -> Vec<&mut ScaledCurve> {
         let dimension = self.dimension;
         let mut uses = Vec::new();
@@ -561,7 +563,7 @@ impl Model {
     }
 }
 
-/// The curves of a given motion.
+/// The curves of a prescribed motion.
 fn of_translation(translation: &mut Translation) -> impl Iterator<Item = &mut ScaledCurve> {
     let Translation {
         given: _,
@@ -639,7 +641,8 @@ fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
 }
 
 impl Quantity {
-    /// The bodies that are looked at, or from; elements that joints carry, systems and bodies of forces are not among them, and of a formula none.
+    /// The bodies that are observed, and those of observers and axes. Not included are elements that joints carry,
+    /// systems, and bodies of forces; for a formula there are none.
     pub fn bodies_mut(&mut self) -> impl Iterator<Item = &mut Body> {
         let bodies = match self {
             Quantity::Point {
@@ -669,7 +672,7 @@ impl Quantity {
         bodies.into_iter().flatten()
     }
 
-    /// The force that is looked at, by its index; of a formula none.
+    /// Index of the force that is observed; `None` for a formula.
     pub fn force_mut(&mut self) -> Option<&mut usize> {
         match self {
             Quantity::OfForce { force, .. }

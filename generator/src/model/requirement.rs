@@ -1,8 +1,8 @@
-//! What the numbers of a model must keep, each requirement in one sentence: of a constant it is judged when the model is read, of what
-//! parameters decide before every run. Both say the same words.
+//! Requirements on the numbers of a model, each as one sentence. Requirements on constants are checked when the model
+//! is read, those on parameters before every run, with the same words.
 //!
-//! The numbers of a law are ruled in [`part`](super::part), one by one. What several of them must keep together stands here, as one
-//! expression of them.
+//! Each number of a law has its own rule in [`part`](super::part). Requirements on several numbers together are here,
+//! each as one expression of these numbers.
 
 use super::part::{Field, Part};
 use super::rule::{Rule, Ruled};
@@ -12,37 +12,38 @@ use super::{
     System, Vehicle,
 };
 
-/// Relative excess of a moment over the sum of the others that is rounding: a flat body has equality.
+/// Relative excess of a principal moment over the sum of the others that counts as rounding: for a flat body they are
+/// equal.
 pub(crate) const ROUNDING: f64 = 1e-9;
 
-/// What a number, or several, must keep.
+/// A requirement on one number, or on several together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Requirement {
-    /// In words: "`damping` of contact "floor" must not be negative".
+    /// The requirement in words: "`damping` of contact "floor" must not be negative".
     pub sentence: String,
-    /// The path of the key where it is broken, below the force or the element.
+    /// The path of the key to which the requirement belongs, below the force or the element.
     pub path: String,
-    /// The number, or what is made of several.
+    /// The number, or an expression of several.
     pub value: Number,
-    /// What it may be.
+    /// The rule that the value must keep.
     pub rule: Rule,
-    /// What to do.
+    /// A remedy if the requirement is broken.
     pub help: &'static str,
-    /// Whether the value is a number as written, and so worth showing.
+    /// True if the value is a number as written, so that messages may show it.
     pub written: bool,
 }
 
-/// Curves by index; `None` for what is wrong.
+/// Returns a curve, given its index; `None` if the curve is wrong.
 pub type Curves<'a> = &'a dyn Fn(usize) -> Option<&'a Curve>;
 
-/// Requirements of one owner: "contact "floor"", "man/head".
+/// The requirements of one owner: "contact "floor"", "man/head".
 pub struct List<'a> {
     owner: &'a str,
     found: Vec<Requirement>,
 }
 
 impl List<'_> {
-    /// A number as written.
+    /// Adds a requirement on a number as written.
     pub(crate) fn number(&mut self, path: String, value: &Number, rule: Rule) {
         self.found.push(Requirement {
             sentence: format!("`{path}` of {} {}", self.owner, rule.words()),
@@ -54,7 +55,7 @@ impl List<'_> {
         });
     }
 
-    /// What several numbers must keep, in words behind the owner.
+    /// Adds a requirement on several numbers together; `must` follows the name of the owner in the sentence.
     pub(crate) fn together(
         &mut self,
         path: &str,
@@ -81,7 +82,7 @@ impl List<'_> {
 }
 
 impl Model {
-    /// All of the model.
+    /// All requirements of the model.
     pub fn requirements(&self) -> Vec<Requirement> {
         let mut all = Vec::new();
         all.extend(self.vehicles.iter().flat_map(Vehicle::requirements));
@@ -102,7 +103,7 @@ impl Model {
 }
 
 impl Vehicle {
-    /// Of the curves of a vehicle.
+    /// Requirements on the curves of a vehicle.
     pub fn requirements(&self) -> Vec<Requirement> {
         let owner = format!("vehicle \"{}\"", self.name);
         let mut list = List {
@@ -121,7 +122,7 @@ impl Vehicle {
 }
 
 impl System {
-    /// Of the curves of a reference joint.
+    /// Requirements on the curves of a reference joint.
     pub fn requirements(&self) -> Vec<Requirement> {
         let owner = format!("system \"{}\"", self.name);
         let mut list = List {
@@ -138,7 +139,7 @@ impl System {
 }
 
 impl Switch {
-    /// Of a switch.
+    /// Requirements on a switch.
     pub fn requirements(&self) -> Vec<Requirement> {
         let owner = format!("switch \"{}\"", self.name);
         let mut list = List {
@@ -153,7 +154,7 @@ impl Switch {
 }
 
 impl Element {
-    /// Of an element that is called `owner`.
+    /// Requirements on an element, which sentences call `owner`.
     pub fn requirements(&self, owner: &str, dimension: Dimension) -> Vec<Requirement> {
         let mut list = List {
             owner,
@@ -167,7 +168,7 @@ impl Element {
                 .iter()
                 .any(|component| component.constant().is_none())
             {
-                // it is divided by its length, which is wrong where squares overflow or vanish
+                // the axis is divided by its length, which fails if squares overflow or underflow
                 let squares = freedom
                     .axis
                     .each_ref()
@@ -211,7 +212,7 @@ impl Element {
 }
 
 impl Force {
-    /// Of a force.
+    /// Requirements on a force.
     pub fn requirements(&self, dimension: Dimension, curves: Curves<'_>) -> Vec<Requirement> {
         let mut kind = self.kind.clone();
         let owner = format!("{} \"{}\"", kind.key(), self.name);
@@ -232,9 +233,9 @@ impl Force {
     }
 }
 
-/// Unloading of any law.
+/// Requirements on unloading, for all laws.
 impl List<'_> {
-    /// Unloading along a curve at or below that of loading.
+    /// Adds the requirements on unloading: its curve lies nowhere above the loading curve.
     pub(crate) fn hysteresis(
         &mut self,
         key: &str,
@@ -261,7 +262,7 @@ impl List<'_> {
         }
     }
 
-    /// The line between two curves, which is at least as steep as both.
+    /// Adds the requirement that the line between two curves is at least as steep as both.
     pub(crate) fn steep(
         &mut self,
         loading: (&Curve, &ScaledCurve),

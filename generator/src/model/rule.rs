@@ -1,9 +1,9 @@
-//! What a number may be: the one classification of all numbers of all laws, by which constants are refused when a model is read and
-//! parameters before a run.
+//! Rules for the values of numbers. All numbers of all laws are classified by these: constants are checked when a model
+//! is read, parameters before a run.
 
 use super::Number;
 
-/// What a number may be.
+/// The values that a number may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Rule {
     /// Any finite number.
@@ -17,7 +17,7 @@ pub enum Rule {
 }
 
 impl Rule {
-    /// Whether a value keeps it. What is no number, or infinite, keeps none.
+    /// True if a value keeps the rule. NaN and infinities keep no rule.
     pub fn keeps(self, value: f64) -> bool {
         value.is_finite()
             && match self {
@@ -28,7 +28,7 @@ impl Rule {
             }
     }
 
-    /// What a number must do that is to keep it, in words.
+    /// The rule in words, to follow the name of the number.
     pub fn words(self) -> &'static str {
         match self {
             Rule::Finite => "must be finite",
@@ -38,7 +38,7 @@ impl Rule {
         }
     }
 
-    /// A remedy.
+    /// A remedy for a value that breaks the rule.
     pub fn help(self) -> &'static str {
         match self {
             Rule::Finite => {
@@ -51,21 +51,21 @@ impl Rule {
     }
 }
 
-/// Where a number stands, seen from the key of the term that it belongs to.
+/// The key of a number, relative to the key of the term that the number belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Key {
-    /// It is what the key says.
+    /// The key of the term itself.
     Itself,
-    /// An entry of the list that the key says.
+    /// An entry of the list at the key.
     Item(usize),
-    /// Below the key: `stop` → `stop.from`.
+    /// A key below that of the term: `stop` → `stop.from`.
     Below(String),
-    /// Beside the key: `about.x.friction` → `about.x.friction_speed`.
+    /// A key beside that of the term: `about.x.friction` → `about.x.friction_speed`.
     Beside(String),
 }
 
 impl Key {
-    /// Its path, given that of the term.
+    /// The path of the key, given that of the term.
     pub fn path(&self, term: &str) -> String {
         match self {
             Key::Itself => term.to_owned(),
@@ -79,18 +79,18 @@ impl Key {
     }
 }
 
-/// A number of a term: where it stands, and what it may be.
+/// A number of a term, with its key and its rule.
 pub struct Ruled<'a> {
-    /// What it may be; none where the term says it.
+    /// The rule; `None` for the rule of the term.
     pub rule: Option<Rule>,
-    /// Where it stands.
+    /// The key, relative to that of the term.
     pub key: Key,
     /// The number.
     pub number: &'a mut Number,
 }
 
 impl<'a> Ruled<'a> {
-    /// The number of a term that has no other: the term says what it may be.
+    /// The only number of a term; the term has its rule.
     pub fn of_term(number: &'a mut Number) -> Self {
         Ruled {
             rule: None,
@@ -99,7 +99,7 @@ impl<'a> Ruled<'a> {
         }
     }
 
-    /// What the key of the term says.
+    /// A number at the key of the term.
     pub fn itself(rule: Rule, number: &'a mut Number) -> Self {
         Ruled {
             rule: Some(rule),
@@ -108,7 +108,7 @@ impl<'a> Ruled<'a> {
         }
     }
 
-    /// An entry of the list that the key of the term says.
+    /// An entry of the list at the key of the term.
     pub fn item(index: usize, rule: Rule, number: &'a mut Number) -> Self {
         Ruled {
             rule: Some(rule),
@@ -117,7 +117,7 @@ impl<'a> Ruled<'a> {
         }
     }
 
-    /// Below the key of the term.
+    /// A number at a key below that of the term.
     pub fn below(key: impl Into<String>, rule: Rule, number: &'a mut Number) -> Self {
         Ruled {
             rule: Some(rule),
@@ -126,7 +126,7 @@ impl<'a> Ruled<'a> {
         }
     }
 
-    /// Beside the key of the term.
+    /// A number at a key beside that of the term.
     pub fn beside(key: &str, rule: Rule, number: &'a mut Number) -> Self {
         Ruled {
             rule: Some(rule),
@@ -135,7 +135,7 @@ impl<'a> Ruled<'a> {
         }
     }
 
-    /// The same, the term's key being below another.
+    /// The same number, if the key of the term moves below `key`.
     pub fn under(self, key: &str) -> Self {
         let key = match self.key {
             Key::Itself => Key::Below(key.to_owned()),

@@ -1,4 +1,5 @@
-//! A model together with what its text mentions, and where: what an explanation of the model starts from.
+//! A model together with everything that its text mentions, and the places in the text: the basis for explaining the
+//! model.
 
 use super::resolve::resolve;
 use super::{Criteria, Model, Shown};
@@ -15,45 +16,46 @@ use std::path::{Path, PathBuf};
 /// A model and its text.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// In its normal form: what is generated.
+    /// The model in its normal form, from which code is generated.
     pub model: Model,
-    /// With all that the text mentions: what is 0, what nothing uses; forces that are switched off behind the others.
+    /// The model with everything that the text mentions, including zeros and unused parts. Forces that are switched off
+    /// come after the others.
     pub written: Model,
-    /// By what a run is judged, where the text says so.
+    /// The criteria by which a run is judged, if the text has any.
     pub criteria: Option<Criteria>,
-    /// Where everything stands.
+    /// The places of all parts in the text.
     pub places: Places,
-    /// Every file read, the model's own first.
+    /// Every file that was read, the model's own file first.
     pub read: Vec<PathBuf>,
     /// The model in its long form, as one file: lists, mirror images, named surfaces and instances written out.
     pub long_form: String,
-    /// Of a URDF file: what was left out and what to know, a sentence each.
+    /// For a URDF file: sentences on parts that were left out, and other remarks.
     pub notes: Vec<String>,
 }
 
-/// A line of a text.
+/// A line of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// The file, as it was given.
+    /// Name of the file, as it was given.
     pub file: String,
-    /// From 1.
+    /// Number of the line, from 1.
     pub line: usize,
-    /// What stands there: `friction: 0`, or the key alone where its value is long.
+    /// The text at this place: `friction: 0`; only the key if its value is long.
     pub text: String,
 }
 
-/// Places by owner ("contact seat-back", "parameter mu", "element man/head", "model") and key below it
+/// Places, by owner ("contact seat-back", "parameter mu", "element man/head", "model") and by the key below the owner
 /// ("about.x.friction", "acceleration\[0\]"; "" for the owner itself).
 #[derive(Clone, Debug, Default)]
 pub struct Places {
     places: BTreeMap<String, BTreeMap<String, Place>>,
 }
 
-/// Values longer than this are not repeated \[characters\].
+/// Values longer than this are not shown \[characters\].
 const LONGEST_TEXT: usize = 32;
 
 impl Places {
-    /// Keeps the places whose lines are those of something else, there.
+    /// Replaces each line number by that of another text, and drops places without a line in that text.
     fn keep(&mut self, line_there: impl Fn(usize) -> Option<usize>) {
         for keys in self.places.values_mut() {
             keys.retain(|_, place| {
@@ -64,12 +66,12 @@ impl Places {
         }
     }
 
-    /// Where something stands.
+    /// The place of a key of an owner.
     pub fn get(&self, owner: &str, key: &str) -> Option<&Place> {
         self.places.get(owner)?.get(key)
     }
 
-    /// The owners of a kind ("parameter"), by their names, in no order of meaning.
+    /// The names of the owners of a kind ("parameter"), in no meaningful order.
     pub fn of_kind<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = &'a str> {
         let name = move |owner: &'a String| owner.strip_prefix(kind)?.strip_prefix(' ');
         self.places.keys().filter_map(name)
@@ -127,7 +129,7 @@ impl Places {
         places
     }
 
-    /// Enters all that stands below a place; of what several files say the last holds.
+    /// Adds everything below a place. If several files have the same key, the last one counts.
     fn below(&mut self, owner: &str, prefix: &str, at: At<'_>, but: &[&str]) {
         match &at.node.kind {
             Kind::Scalar { .. } => {}
@@ -140,7 +142,7 @@ impl Places {
             }
             Kind::Map(entries) => {
                 for entry in entries {
-                    // Points are many and no effects.
+                    // There are many points, and none of them is an effect.
                     if entry.key == "points" || but.contains(&entry.key.as_str()) {
                         continue;
                     }
@@ -177,18 +179,18 @@ impl Places {
 }
 
 impl std::fmt::Display for Place {
-    /// `models/sled.yaml:12`
+    /// Writes `models/sled.yaml:12`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}:{}", self.file, self.line)
     }
 }
 
-/// Kind and name of a force.
+/// Law and name of a force: the name of an owner.
 fn owner(force: &Force) -> String {
     format!("{} {}", force.law().key, force.header().name)
 }
 
-/// Reads a model as [`read`](super::read) does, and keeps where everything stands.
+/// Reads a model like [`read`](super::read), together with the places of its parts.
 pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
     let text = read_model(path)?;
     let mut scene =
@@ -205,7 +207,7 @@ pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
     Ok(scene)
 }
 
-/// Reads a model from text as [`read_str`](super::read_str) does, and keeps where everything stands.
+/// Reads a model from text like [`read_str`](super::read_str), together with the places of its parts.
 pub fn read_str(
     name: &str,
     text: &str,

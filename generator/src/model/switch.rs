@@ -1,53 +1,53 @@
-//! Switches: what happens once in a run, and what waits for it.
+//! Switches: events that happen at most once in a run, and the forces that wait for them.
 
 use super::{Number, Quantity};
 use serde::Serialize;
 
-/// Something that fires once in a run and from then on has fired.
+/// An event that fires at most once in a run, and has fired from then on.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Switch {
     /// Name, unique among the switches.
     pub name: String,
-    /// What makes it fire.
+    /// The condition that makes the switch fire.
     pub trigger: Trigger,
-    /// Time between its firing and its effect \[s\], not negative; none is 0.
+    /// Time between firing and taking effect \[s\], not negative; `None` for 0.
     pub after: Option<Number>,
-    /// The unit in which its threshold is written, and its SI value.
+    /// The unit in which the threshold is written, and the SI value of this unit.
     #[serde(skip)]
     pub shown: (String, f64),
 }
 
-/// What makes a switch fire.
+/// The condition that makes a switch fire.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Trigger {
     /// A time is reached \[s\].
     Time(Number),
     /// A quantity is larger than this, at the start or later.
     Above(Quantity, Number),
-    /// A quantity is smaller than this.
+    /// A quantity is smaller than this, at the start or later.
     Below(Quantity, Number),
 }
 
-/// When a force acts.
+/// The time during which a force acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Active {
-    /// From this switch on: index into [`Model::switches`](super::Model::switches).
+    /// The force acts from this switch on: index into [`Model::switches`](super::Model::switches).
     pub since: Option<usize>,
-    /// Up to this one.
+    /// The force acts up to this switch: index as above.
     pub until: Option<usize>,
 }
 
-/// Of a switch.
+/// A quantity of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SwitchQuantity {
-    /// 1 once it acts, 0 before.
+    /// 1 once the switch is in effect, 0 before.
     Acts,
-    /// The time from which on it acts \[s\], −1 before.
+    /// The time at which the switch takes effect \[s\], −1 before.
     Time,
 }
 
 impl Trigger {
-    /// The quantity that it looks at.
+    /// The quantity that the trigger observes.
     pub fn quantity(&self) -> Option<&Quantity> {
         match self {
             Trigger::Time(_) => None,
@@ -55,7 +55,7 @@ impl Trigger {
         }
     }
 
-    /// The quantity that it looks at, to renumber what it belongs to.
+    /// Like [`quantity`](Self::quantity), mutable: to renumber what the quantity refers to.
     pub fn quantity_mut(&mut self) -> Option<&mut Quantity> {
         match self {
             Trigger::Time(_) => None,

@@ -1,10 +1,12 @@
-//! Curves of measurements with more points than a model may have: those are left out that a straight line between the others nearly hits.
+//! Thins curves with more points than a model may have: points are left out that lie close to a straight line between
+//! their neighbours.
 
 use super::{Curve, Thinned};
 
 impl Curve {
-    /// The curve with at most this many of its points, and what that changes. The points that stay are chosen for the smallest error that
-    /// is found for straight lines between them; a cubic has its own error, which is the one that is kept.
+    /// The curve with at most `most` of its points, and the error of this. The points are chosen for the smallest error
+    /// that is found for straight lines; the stated error is that of the curve itself, which for a cubic is a different
+    /// one.
     pub fn with_at_most(self, most: usize) -> Curve {
         if self.points.len() <= most.max(2) {
             return self;
@@ -12,7 +14,7 @@ impl Curve {
         let heights = self.points.iter().map(|point| point[1]);
         let highest = heights.clone().fold(f64::NEG_INFINITY, f64::max);
         let lowest = heights.fold(f64::INFINITY, f64::min);
-        // so many halvings reach the rounding of a number
+        // 60 halvings reach the rounding of a number
         let (mut too_small, mut enough) = (0.0, (highest - lowest).max(f64::MIN_POSITIVE));
         for _ in 0..60 {
             let middle = 0.5 * (too_small + enough);
@@ -35,9 +37,9 @@ impl Curve {
     }
 }
 
-/// The points that stay so that each of the others is within `tolerance` of the line between the ones that stay beside it. From a point
-/// that stays, the slopes that pass all later points within the tolerance form an interval; the next one that stays is the last before a
-/// point whose own slope is outside.
+/// A choice of points such that every other point is within `tolerance` of the line between its neighbours in the
+/// choice. From a chosen point, the slopes of lines that pass all later points within the tolerance form an interval.
+/// The next chosen point is the last one before a point whose own slope is outside of this interval.
 fn kept(points: &[[f64; 2]], tolerance: f64) -> Vec<[f64; 2]> {
     let mut kept = vec![points[0]];
     let mut slopes = [f64::NEG_INFINITY, f64::INFINITY];

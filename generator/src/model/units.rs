@@ -1,4 +1,4 @@
-//! The units in which outputs are shown. All computing is in SI.
+//! The units in which outputs are shown. All computations are in SI.
 
 use super::{Model, Output};
 use crate::description::unit::{STANDARD_GRAVITY, whole_power};
@@ -10,7 +10,7 @@ pub enum UnitSystem {
     /// m, N, rad, s, …
     #[default]
     Si,
-    /// Those of crash tests and workshops: mm, g, kN, °, °/s, kPa, ms.
+    /// The units of crash tests and workshops: mm, g, kN, °, °/s, kPa, ms.
     Engineering,
 }
 
@@ -43,7 +43,7 @@ pub struct Units {
 }
 
 impl UnitSystem {
-    /// The names of all families, as models and the command line have them.
+    /// The names of all systems, as in models and on the command line.
     pub const NAMES: [&str; 2] = ["SI", "engineering"];
 
     /// The system of this name, one of [`UnitSystem::NAMES`].
@@ -76,9 +76,9 @@ impl UnitSystem {
 }
 
 impl Unit {
-    /// A number in this unit, from its SI value.
+    /// Converts an SI value to this unit.
     pub fn of_si(&self, value: f64) -> f64 {
-        // in SI all digits stay as they are
+        // keeps all digits of SI values
         match self.size {
             1.0 => value,
             size => value / size,

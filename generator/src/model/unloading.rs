@@ -1,18 +1,19 @@
-//! What curves of loading and unloading must be for the loops to close, as inequalities of their factors.
+//! Conditions on the curves of loading and unloading under which hysteresis loops close, as inequalities of the factors
+//! of the curves.
 
 use super::{Curve, Extrapolate, Interpolate, Number, ScaledCurve};
 
-/// Straight pieces by which a smooth piece of a curve is looked at.
+/// Number of straight pieces by which a smooth piece of a curve is approximated.
 const PIECES: u32 = 16;
 
-/// How far out curves are compared, in abscissae of their last points.
+/// Curves are compared up to this many times the abscissae of their last points.
 const FAR: f64 = 1e3;
 
-/// A slope equal to the steepest, reckoned otherwise, may be less by rounding.
+/// Relative tolerance for a slope that equals the steepest one up to rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The slopes of a curve that a line must be at least as steep as, whatever factor the curve is scaled by: the steepest up and, for
-/// negative factors, down.
+/// The slopes of a curve, the steepest up and the steepest down (for negative factors). A line must be at least as
+/// steep as these, whatever the factor of the curve.
 pub fn steepest(curve: &Curve) -> Vec<f64> {
     let drawn = drawn(curve, 1.0);
     let slope = |pair: &[[f64; 2]]| (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
@@ -34,7 +35,7 @@ pub fn nothing() -> Curve {
     }
 }
 
-/// Curves as they are.
+/// The scaling of a curve by factors of 1.
 pub fn unscaled() -> ScaledCurve {
     ScaledCurve {
         curve: 0,
@@ -44,7 +45,7 @@ pub fn unscaled() -> ScaledCurve {
     }
 }
 
-/// The curve −f(−x) of a curve f(x), which from 0 on is f below 0 turned by half a turn.
+/// The curve −f(−x): for x ≥ 0, the part of f below 0, rotated by 180° about the origin.
 pub fn turned(curve: &Curve) -> Curve {
     let points = curve.points.iter().rev();
     Curve {
@@ -53,7 +54,8 @@ pub fn turned(curve: &Curve) -> Curve {
     }
 }
 
-/// By how much the curve of loading lies above that of unloading, wherever from 0 on one of them has a kink: none may be negative.
+/// The distances by which the loading curve `lower` lies above the unloading curve `upper`, at each kink of either from
+/// 0 on: none may be negative.
 pub fn clearances(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
     let constant = |scaled: &ScaledCurve| scaled.stretch.constant().is_some();
     if upper.1.stretch == lower.1.stretch || (constant(upper.1) && constant(lower.1)) {
@@ -69,7 +71,8 @@ pub fn clearances(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) 
     stretched(upper, lower)
 }
 
-/// The same of curves that parameters stretch against each other, so that their kinks move past one another.
+/// The same distances for curves whose stretches depend on different parameters, so that the order of their kinks may
+/// change.
 fn stretched(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
     let [u, f] = [upper, lower].map(|(curve, scaled)| (drawn(curve, 1.0), scaled));
     let at = |(curve, scaled): &(Curve, &ScaledCurve), x: &Number| {
@@ -103,7 +106,8 @@ fn stretched(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Ve
     clearances
 }
 
-/// The value of a curve of straight pieces as an expression of its abscissa; beyond its points the outermost where it must not be left.
+/// The value of a piecewise linear curve as an expression of its abscissa. A curve that must not be left is held beyond
+/// its points.
 fn polygon(curve: &Curve, x: Number) -> Number {
     let points = &curve.points;
     let smaller = |a: Number, b: f64| Number::smaller(a, b.into());
@@ -129,11 +133,12 @@ fn polygon(curve: &Curve, x: Number) -> Number {
     value
 }
 
-/// The pairs \[a, b\] by which the curve of unloading lies nowhere from 0 on above that of loading: where a · times of loading ≥ b · times
-/// of unloading for each. Their stretches are constants, or the same.
+/// Pairs \[a, b\] that express that the unloading curve `upper` lies nowhere above the loading curve `lower` from 0 on:
+/// a · (times of loading) ≥ b · (times of unloading) for each pair. The stretches of the curves must be constants, or
+/// the same.
 fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<[f64; 2]> {
     let stretches = [upper, lower].map(|(_, scaled)| scaled.stretch.constant());
-    // where both are stretched alike, the comparison is that of the curves themselves
+    // curves with the same stretch are compared without it
     let [u, f] = match stretches {
         [Some(u), Some(f)] => [drawn(upper.0, u), drawn(lower.0, f)],
         _ => [drawn(upper.0, 1.0), drawn(lower.0, 1.0)],
@@ -153,7 +158,8 @@ fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<[f
     binding(pairs)
 }
 
-/// Of inequalities a x ≥ b y those that the others follow from: the outermost two, where all of them leave a wedge.
+/// The inequalities a x ≥ b y from which all others follow: the outermost two if the solutions form a wedge, otherwise
+/// all.
 fn binding(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     let mut by_angle: Vec<(f64, [f64; 2])> = pairs
         .into_iter()
@@ -178,7 +184,7 @@ fn binding(pairs: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     }
 }
 
-/// A curve with its abscissae stretched, smooth pieces as straight ones.
+/// A curve with stretched abscissae, and with smooth pieces replaced by straight ones.
 fn drawn(curve: &Curve, stretch: f64) -> Curve {
     let mut drawn = Curve {
         interpolate: Interpolate::Linear,
@@ -201,7 +207,7 @@ fn drawn(curve: &Curve, stretch: f64) -> Curve {
     drawn
 }
 
-/// The value of a curve of straight pieces; beyond its points the outermost where it must not be left.
+/// The value of a piecewise linear curve. A curve that must not be left is held beyond its points.
 pub fn value(curve: &Curve, x: f64) -> f64 {
     let points = &curve.points;
     let last = points.len() - 1;

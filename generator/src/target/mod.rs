@@ -1,7 +1,8 @@
-//! What a program is written as: Rust, C, and machine code of processors, made without a compiler.
+//! The targets: a program is written as Rust, as C, or as machine code for a processor, made without a compiler.
 //!
-//! C and machine code come from [lists](crate::program::List). Rust comes from the schedules that the lists are made of. A target executes nothing, so it
-//! works on any host, and it knows no other target. What machine code of all processors has in common is `machine`.
+//! C and machine code come from [lists](crate::program::List). Rust comes from the schedules that the lists are made
+//! of. A target executes nothing, so it works on any host, and it knows no other target. `machine` has the part of
+//! making machine code that is common to all processors.
 
 pub mod aarch64;
 pub mod c;

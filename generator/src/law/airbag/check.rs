@@ -1,4 +1,4 @@
-//! Airbags: an ellipsoid in space, what it meets on other bodies, and its gas.
+//! Airbags: an ellipsoid in space, the ellipsoids that it meets on other bodies, and its gas.
 
 use super::keys::{Air, Airbag as Written, Inflow as WrittenInflow, Vent};
 use crate::description::place::At;
@@ -14,41 +14,41 @@ use serde::Serialize;
 /// Air: its gas constant \[J/(kg K)\] and ratio of specific heats.
 const OF_AIR: [f64; 2] = [287.0, 1.4];
 
-/// The standard atmosphere \[Pa\], and 20 °C \[K\].
+/// Pressure of the standard atmosphere \[Pa\], and 20 °C as a temperature \[K\].
 const AROUND: [f64; 2] = [101_325.0, 293.15];
 
-/// Part of the volume of a bag that gas takes at the start, where it is not full.
+/// Part of the volume of the full bag that gas takes up at the start, unless the bag starts full.
 pub const FOLDED: f64 = 1e-3;
 
 /// A bag of gas at one pressure.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Airbag {
-    /// Its shape when full.
+    /// The shape of the full bag.
     pub bag: Ellipsoid,
-    /// What it meets, on other bodies.
+    /// The ellipsoids that the bag meets, on other bodies.
     pub against: Vec<Ellipsoid>,
     /// Gas that flows in.
     pub inflow: Option<Inflow>,
-    /// Area of the jet that flows out, that of the hole times its coefficient \[m²\].
+    /// Area of the jet that flows out: the area of the hole times its discharge coefficient \[m²\].
     pub vent: Option<Number>,
     /// Gas constant \[J/(kg K)\].
     pub constant: Number,
     /// Ratio of specific heats, more than 1.
     pub gamma: Number,
-    /// Absolute pressure around it \[Pa\].
+    /// Absolute pressure around the bag \[Pa\].
     pub ambient_pressure: Number,
-    /// Temperature of what little gas is in it before it fires \[K\].
+    /// Temperature of the little gas that is in the bag before the inflow begins \[K\].
     pub ambient_temperature: Number,
-    /// Its gas at the start, where it is full then.
+    /// The gas of a bag that is full at the start; `None` for a folded bag.
     pub start: Option<Filled>,
 }
 
 /// A source of gas.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Inflow {
-    /// Index into [`Model::switches`](crate::model::Model::switches).
+    /// The switch that starts the inflow: index into [`Model::switches`](crate::model::Model::switches).
     pub fire: usize,
-    /// Mass flow against the time since then \[s\] → \[kg/s\].
+    /// Mass flow against the time since the switch \[s\] → \[kg/s\].
     pub flow: ScaledCurve,
     /// Temperature of the gas \[K\].
     pub temperature: Number,
@@ -64,12 +64,12 @@ pub struct Filled {
 }
 
 impl Airbag {
-    /// Its ellipsoid and those that it meets.
+    /// The ellipsoid of the bag, and those that it meets.
     pub fn ellipsoids(&self) -> impl Iterator<Item = &Ellipsoid> {
         std::iter::once(&self.bag).chain(&self.against)
     }
 
-    /// The same, to be changed.
+    /// Like [`ellipsoids`](Self::ellipsoids), mutable.
     pub fn ellipsoids_mut(&mut self) -> impl Iterator<Item = &mut Ellipsoid> {
         std::iter::once(&mut self.bag).chain(&mut self.against)
     }
@@ -127,7 +127,7 @@ pub(crate) fn airbag(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>)
     })
 }
 
-/// The bag, and what it meets; none where one of them is wrong.
+/// The bag, and the ellipsoids that it meets; `None` for either if it is wrong.
 fn ellipsoids(
     resolver: &Resolver<'_>,
     written: &Written,
@@ -159,7 +159,7 @@ fn ellipsoids(
     (bag, against.into_iter().collect())
 }
 
-/// Reports degrees: all ellipsoids of a bag are of degree 2.
+/// Reports ellipsoids of a degree other than 2.
 fn check_degrees(resolver: &Resolver<'_>, written: &Written, at: At<'_>) {
     let list = at.key("against");
     let round = std::iter::once((&written.ellipsoid, at.key("ellipsoid")));
@@ -174,7 +174,7 @@ fn check_degrees(resolver: &Resolver<'_>, written: &Written, at: At<'_>) {
     }
 }
 
-/// The area of the jet that flows out; `None` where it is 0.
+/// The area of the jet that flows out; `None` if it is 0.
 fn jet(resolver: &Resolver<'_>, written: &Vent, at: At<'_>) -> Option<Number> {
     let area = resolver.coefficient(Some(&written.area), at.key("area"), AREA)?;
     let part = written

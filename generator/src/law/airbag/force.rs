@@ -1,19 +1,24 @@
-//! Airbag: an ellipsoid of perfect gas at one pressure, which pushes what is in its place.
+//! Airbag: an ellipsoid of perfect gas at one pressure, which pushes the ellipsoids that overlap with it.
 //!
 //! V = V₀ − Σ ΔV(δₖ),   p = max(p_a, (γ − 1) U/V),   T = (γ − 1) U/(m R)
 //!
 //! ṁ = ṁ_in − ṁ_out,   U̇ = H − p V̇ while full,  H/γ while slack;   H = c_p (ṁ_in T_in − ṁ_out T)
 //!
-//! F_k = (p − p_a) A(δₖ),   A = dΔV/dδ,   so that Σ F_k δ̇ₖ = −(p − p_a) V̇: the bag gives exactly what its gas does beyond the air around it
+//! F_k = (p − p_a) A(δₖ),   A = dΔV/dδ,   so that Σ F_k δ̇ₖ = −(p − p_a) V̇: the work of the forces is exactly that of
+//! the gas, less that of the air around it
 //!
-//! m and U are states. While (γ − 1) U < p_a V the bag is slack: its gas is at p_a, its volume follows from that, and the work against p_a makes H/γ of H.
-//! V₀ is the volume of the ellipsoid. δ is the least overlap with an ellipsoid that it meets, as of a [contact](crate::law::contact::force), and the force acts along its
-//! direction half way between the deepest points. ΔV and A are those of two spheres of the same volumes as the ellipsoids, whose overlap is δ: A is the area of
-//! the circle in which they meet, and once the smaller one is in up to its equator, that of its section.
+//! m and U are states. While (γ − 1) U < p_a V the bag is slack: its gas is at p_a, this determines its volume, and
+//! because of the work against p_a, only H/γ of H remains. V₀ is the volume of the ellipsoid. δ is the least overlap
+//! with an ellipsoid that the bag meets, as for a [contact](crate::law::contact::force), and the force acts along its
+//! direction, half-way between the deepest points. ΔV and A are those of two spheres with the volumes of the ellipsoids
+//! and the overlap δ: A is the area of the circle in which the spheres meet; once the smaller sphere is inside up to
+//! its equator, A is the area of its equator.
 //!
-//! With r = max(p_a/p, (2/(γ + 1))^(γ/(γ − 1))), which is choked flow where the second is larger (Saint-Venant and Wantzel, 1839):
+//! With r = max(p_a/p, (2/(γ + 1))^(γ/(γ − 1))), where the flow is choked if the second is larger (Saint-Venant and
+//! Wantzel, 1839):
 //!
-//! ṁ_out = C A_v p/√(R T) ψ,   ψ² = 2γ/(γ − 1) (r^(2/γ) − r^((γ + 1)/γ)),   and ψ²/√ψ₀² below ψ₀² = 10⁻⁴, a pressure of 5 Pa, where the root is steep
+//! ṁ_out = C A_v p/√(R T) ψ,   ψ² = 2γ/(γ − 1) (r^(2/γ) − r^((γ + 1)/γ)). For ψ² below ψ₀² = 10⁻⁴ (a pressure
+//! difference of 5 Pa), where the root is steep, ψ is replaced by ψ²/√ψ₀².
 
 use super::check::FOLDED;
 use super::outputs::AirbagMeasures;
@@ -34,19 +39,20 @@ use std::f64::consts::PI;
 /// ψ₀²
 const STEEP: f64 = 1e-4;
 
-/// Least part of its volume that is left to the gas of a bag. A run in which less would be left says so.
+/// Smallest part of its volume that remains for the gas of a bag. A run in which less would remain reports so.
 const LEAST: f64 = LEAST_VOLUME;
 
-/// Least mass of gas that something is divided by \[kg\].
+/// Lower bound of the mass of gas in divisions \[kg\].
 const LEAST_MASS: f64 = 1e-9;
 
-/// Least distance of two spheres that something is divided by \[m\].
+/// Lower bound of the distance of two spheres in divisions \[m\].
 const LEAST_RADIUS: f64 = 1e-9;
 
-/// Most points of the curve of an inflow that steps end at; those of a curve of more points are passed as smooth.
+/// Steps end at the points of the curve of an inflow if it has at most this many; a curve with more points is treated
+/// as smooth.
 const MOST_KINKS: usize = 32;
 
-/// What a bag meets.
+/// An ellipsoid that the bag meets.
 struct Meeting<'g> {
     touch: Touch<'g>,
     /// A \[m²\]
@@ -110,7 +116,7 @@ fn apply<'g>(
     });
     let gas = Gas::of(graph, applied, &owner, airbag, [left, left_at_start]);
     let over = gas.pressure - gas.around;
-    // a slack bag has no force whose direction could leap
+    // a slack bag exerts no force, so a jump of its direction does not matter
     applied.curves_act(curves, over);
     let taken = meetings
         .iter()
@@ -131,7 +137,7 @@ fn apply<'g>(
     }
 }
 
-/// The volume that is left to the gas of a bag which gives up these.
+/// The volume that remains for the gas of a bag that gives up these volumes.
 fn left<'g>(
     graph: &'g Graph,
     airbag: &Airbag,
@@ -142,7 +148,8 @@ fn left<'g>(
     (whole - displaced).max(graph.constant(LEAST) * whole)
 }
 
-/// Pushes what a bag meets with the overpressure `over`. The force on what the bag is on, and on each that it meets.
+/// Applies the overpressure `over` to the bodies that the bag meets. Returns the force on the body of the bag, and on
+/// each that it meets.
 fn push<'g>(
     applied: &mut AppliedForces<'g>,
     owner: &str,
@@ -153,7 +160,7 @@ fn push<'g>(
     let mut on = vec![Vec3::zero(over.graph())];
     for (meeting, other) in meetings.iter().zip(&airbag.against) {
         let force = over * meeting.area;
-        // the normal is that from what it meets to the bag
+        // the normal points from the other body to the bag
         let push = -(force * meeting.touch.normal);
         applied.apply(other.center.on, meeting.touch.offset_on_second, push);
         applied.apply(airbag.bag.center.on, meeting.touch.offset, -push);
@@ -167,7 +174,7 @@ fn push<'g>(
     on
 }
 
-/// A bag and an ellipsoid that it meets, as a contact without a force.
+/// A bag and an ellipsoid that it meets, as a contact without force: for its geometry.
 fn contact(airbag: &Airbag, other: &Ellipsoid) -> Contact {
     Contact {
         ellipsoid: airbag.bag.center.clone(),
@@ -184,7 +191,7 @@ fn contact(airbag: &Airbag, other: &Ellipsoid) -> Contact {
     }
 }
 
-/// The overlap of a bag with an ellipsoid.
+/// The overlap of a bag with an ellipsoid that it meets.
 fn meet<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -202,7 +209,7 @@ fn meet<'g>(
     }
 }
 
-/// Tells where the push of a bag begins and has kinks, and of its direction.
+/// Adds the event where the push of a bag begins, its kinks, and the watch on its direction.
 fn tell<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -224,7 +231,7 @@ fn tell<'g>(
     applied.kink(format!("{owner}: is around what it meets"), move || deep);
 }
 
-/// Radii of spheres of the same volumes as a bag and an ellipsoid \[m\].
+/// Radii of the spheres with the volumes of the bag and of an ellipsoid \[m\].
 fn radii<'g>(graph: &'g Graph, airbag: &Airbag, other: &Ellipsoid) -> [Expr<'g>; 2] {
     [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid))
 }
@@ -235,7 +242,7 @@ fn volume<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
     graph.constant(4.0 / 3.0 * PI) * (a * b * c)
 }
 
-/// Radius of the sphere of the same volume \[m\].
+/// Radius of the sphere with the volume of an ellipsoid \[m\].
 fn radius<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
     let [a, b, c] = vector(graph, &ellipsoid.semi_axes).0;
     if a.id() == b.id() && b.id() == c.id() {
@@ -244,16 +251,18 @@ fn radius<'g>(graph: &'g Graph, ellipsoid: &Ellipsoid) -> Expr<'g> {
     graph.call(Function::Power, &[a * b * c, graph.constant(1.0 / 3.0)])
 }
 
-/// Overlap δ of two spheres at which the smaller one is in up to its equator, d² = |a² − b²| \[m\].
+/// Overlap δ of two spheres at which the smaller one is inside up to its equator: d² = |a² − b²| \[m\].
 fn equator<'g>([a, b]: [Expr<'g>; 2]) -> Expr<'g> {
     let both = a + b;
     both - absolute((a - b) * both).sqrt()
 }
 
-/// Area A of the circle in which two spheres meet that overlap by δ, and volume ΔV that the bag gives up, A = dΔV/dδ. 0 where they are apart.
+/// Area A of the circle in which two spheres with the overlap δ meet, and the volume ΔV that the bag gives up,
+/// A = dΔV/dδ. Both are 0 while the spheres are apart.
 ///
-/// ρ² = (a + b + d)(a + b − d)(d + a − b)(d + b − a)/(2 d)²,  d = a + b − δ, until the smaller one has come in up to its equator, d² = |a² − b²|;
-/// from there on the fabric lies around it, and what it sweeps is a tube of its own section.
+/// ρ² = (a + b + d)(a + b − d)(d + a − b)(d + b − a)/(2 d)²,  d = a + b − δ, until the smaller sphere is inside up to
+/// its equator, d² = |a² − b²|. From there on the fabric lies around it, and it sweeps a tube with the section of its
+/// equator.
 fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
     let zero = graph.constant(0.0);
     let both = a + b;
@@ -269,7 +278,7 @@ fn lens<'g>(graph: &'g Graph, [a, b]: [Expr<'g>; 2], overlap: Expr<'g>) -> (Expr
     (area, cap + tube)
 }
 
-/// Mass flow into a bag, 0 until it is fired; with an event function at each point of its curve.
+/// Mass flow into a bag; 0 until its switch acts. Adds an event function at each point of its curve.
 fn flow_in<'g>(
     graph: &'g Graph,
     model: &Model,
@@ -293,25 +302,26 @@ fn flow_in<'g>(
 
 /// The gas of a bag.
 struct Gas<'g> {
-    /// The state m, its index first \[kg\].
+    /// The state m: its index, and its value \[kg\].
     mass: (usize, Expr<'g>),
-    /// The state U, its index first \[J\].
+    /// The state U: its index, and its value \[J\].
     energy: (usize, Expr<'g>),
     gamma: Expr<'g>,
     /// γ − 1
     less: Expr<'g>,
-    /// Pressure around it \[Pa\].
+    /// Pressure around the bag \[Pa\].
     around: Expr<'g>,
-    /// Pressure of what is there in the whole of the volume that is left: less than that around it where the bag is slack \[Pa\].
+    /// Pressure that the gas would have if it filled the whole remaining volume; lower than the pressure around the bag
+    /// if the bag is slack \[Pa\].
     filled: Expr<'g>,
-    /// Its pressure \[Pa\].
+    /// Pressure of the gas \[Pa\].
     pressure: Expr<'g>,
     /// R T \[J/kg\]
     heat: Expr<'g>,
 }
 
 impl<'g> Gas<'g> {
-    /// The gas in the volume that is left to it \[m³\], now and at the start.
+    /// The gas of a bag. `left` is the volume that remains for it, `left_at_start` that at the start \[m³\].
     fn of(
         graph: &'g Graph,
         applied: &mut AppliedForces<'g>,
@@ -351,7 +361,8 @@ impl<'g> Gas<'g> {
         }
     }
 
-    /// Lets gas flow in and out, while the volume left to it shrinks at the rate `shrinking` \[m³/s\]. The mass flow out \[kg/s\].
+    /// Lets gas flow in and out, while the remaining volume shrinks at the rate `shrinking` \[m³/s\]. Returns the mass
+    /// flow out \[kg/s\].
     fn flow(
         &self,
         graph: &'g Graph,
@@ -382,7 +393,7 @@ impl<'g> Gas<'g> {
         out
     }
 
-    /// Mass flow out of a hole whose jet has this area.
+    /// Mass flow out of a hole whose jet has the area `area`.
     fn outflow(&self, applied: &mut AppliedForces<'g>, owner: &str, area: Expr<'g>) -> Expr<'g> {
         let graph = area.graph();
         let (one, two) = (graph.constant(1.0), graph.constant(2.0));

@@ -1,4 +1,4 @@
-//! What can be asked of an airbag: its gas, and its force on a body.
+//! Outputs of an airbag: of its gas, and of its force on a body.
 
 use super::check::Airbag;
 use crate::description::output::Output as Written;
@@ -10,7 +10,7 @@ use crate::model::resolve::Resolver;
 use crate::model::{Body, Quantity};
 use serde::Serialize;
 
-/// Of an airbag.
+/// A quantity of an airbag.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum AirbagQuantity {
     /// Absolute pressure \[Pa\].
@@ -21,15 +21,15 @@ pub enum AirbagQuantity {
     Mass,
     /// Volume of gas \[m³\].
     Volume,
-    /// Mass that flows out \[kg/s\].
+    /// Mass flow out \[kg/s\].
     Outflow,
-    /// Area that pushes what it meets, all together \[m²\].
+    /// Total area that pushes on the bodies that the bag meets \[m²\].
     Area,
 }
 
 impl OfLaw for AirbagQuantity {}
 
-/// The force has a direction.
+/// Name, unit and quantity; `None` for the force, which also has a direction.
 const TABLE: [(&str, &str, Option<AirbagQuantity>); 7] = [
     ("force", "N", None),
     ("pressure", "Pa", Some(AirbagQuantity::Pressure)),
@@ -67,9 +67,9 @@ impl Outputs for Airbag {
     }
 }
 
-/// Of an airbag.
+/// Expressions of the quantities of an airbag.
 pub struct AirbagMeasures<'g> {
-    /// The force on what it is on, and on each that it meets \[N\].
+    /// The force on the body of the bag, and on each that it meets \[N\].
     pub on: Vec<Vec3<'g>>,
     /// Absolute pressure \[Pa\].
     pub pressure: Expr<'g>,
@@ -77,11 +77,11 @@ pub struct AirbagMeasures<'g> {
     pub temperature: Expr<'g>,
     /// Mass of gas \[kg\].
     pub mass: Expr<'g>,
-    /// Its volume \[m³\].
+    /// Volume of the gas \[m³\].
     pub volume: Expr<'g>,
     /// Mass flow out \[kg/s\].
     pub outflow: Expr<'g>,
-    /// Area that pushes \[m²\].
+    /// Total area that pushes \[m²\].
     pub area: Expr<'g>,
 }
 

@@ -1,4 +1,4 @@
-//! The terms of an airbag: what flows in, what is in it at the start, what flows out.
+//! The terms of an airbag: its inflow, its gas at the start, its outflow.
 
 use super::check::{Airbag, Filled, Inflow};
 use crate::law::Terms;

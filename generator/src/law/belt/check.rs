@@ -1,4 +1,5 @@
-//! Belts: two ends, a curve of relative elongation, an untensioned length that is positive, and what changes it.
+//! Belts: two ends, a tension curve against relative elongation, a positive untensioned length, and devices that change
+//! it.
 
 use super::keys::{
     Belt as Written, Limiter as WrittenLimiter, Pretensioner as WrittenPretensioner,
@@ -20,16 +21,16 @@ use crate::model::{
 };
 use serde::Serialize;
 
-/// Stretch at which damping is fully there, where none is given \[m\].
+/// Stretch from which on damping has its full size, if the user gives none \[m\].
 const DAMPING_STRETCH: f64 = 1e-3;
 
-/// Of the curves against relative elongation.
+/// Slope of a curve against relative elongation.
 const SLOPE: Expected = Expected {
     name: "a force per elongation",
     dimension: FORCE.dimension,
 };
 
-/// What is required of the factor of a belt's curve, in the words of the requirement.
+/// The condition on the factor of a belt's curve, in the words of a requirement.
 fn no_force(belt: &str) -> String {
     let rule = Rule::NotZero.words();
     format!("`force.times` of belt {} {rule}", quoted(belt))
@@ -46,43 +47,45 @@ pub struct Belt {
     pub rings: Vec<Ring>,
     /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
     pub force: ScaledCurve,
-    /// Unloading along another curve than `force`, against the relative elongation.
+    /// A different curve for unloading, against the relative elongation.
     pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never below zero, and zero where slack.
+    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never negative, and zero while the belt is
+    /// slack.
     pub damping: Option<Number>,
-    /// Stretch up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    /// Stretch up to which damping grows from 0 to its full size \[m\]; `None` for full damping at once.
     pub damping_stretch: Option<Number>,
-    /// Untensioned length L₀; of no meaning with a retractor.
+    /// Untensioned length L₀; not used with a retractor.
     pub length: BeltLength,
-    /// Pays out webbing until it locks. As the pretensioner and the limiter, it is at the end `from`.
+    /// Pays out webbing until it locks. It is at the end `from`, as are pretensioner and limiter.
     pub retractor: Option<Retractor>,
-    /// By what the tension exceeds the spool's once the retractor has locked, against the webbing that has come off the reel since \[m\] → \[N\].
+    /// Tension of the reel beyond that of the spool once the retractor has locked, against the webbing that has come
+    /// off the reel since \[m\] → \[N\].
     pub film_spool: Option<ScaledCurve>,
-    /// Takes webbing in once it fires.
+    /// Takes webbing in after its switch fires.
     pub pretensioner: Option<Pretensioner>,
-    /// Largest tension \[N\]; webbing is paid out for good where it would be larger.
+    /// Largest tension \[N\]. Where the tension would be larger, webbing is paid out for good.
     pub limiter: Option<Number>,
 }
 
-/// How the untensioned length of a belt is given.
+/// The way in which the untensioned length of a belt is given.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum BeltLength {
     /// Directly \[m\].
     Given(Number),
     /// Initial distance of the attachments plus this slack \[m\].
     Slack(Number),
-    /// Such that the belt pulls with this force \[N\] at the initial distance.
+    /// By the force \[N\] with which the belt pulls at the initial distance.
     Pretension(Number),
 }
 
 impl Belt {
-    /// The points that it runs straight between: its end `from`, its rings, its end `to`.
+    /// The points between which the belt runs straight: the end `from`, the rings, the end `to`.
     pub fn points(&self) -> impl Iterator<Item = &Attachment> {
         let rings = self.rings.iter().map(|ring| &ring.on);
         std::iter::once(&self.from).chain(rings).chain([&self.to])
     }
 
-    /// The same, to be changed.
+    /// Like [`points`](Self::points), mutable.
     pub fn points_mut(&mut self) -> impl Iterator<Item = &mut Attachment> {
         let rings = self.rings.iter_mut().map(|ring| &mut ring.on);
         std::iter::once(&mut self.from)
@@ -91,17 +94,17 @@ impl Belt {
     }
 }
 
-/// Shortest untensioned length, also that which a pretensioner leaves at least \[m\].
+/// Shortest untensioned length, also of a belt whose pretensioner takes webbing in \[m\].
 pub const SHORTEST: f64 = 1e-6;
 
-/// Untensioned length of a segment at which its webbing has run out: no more slips from it \[m\]. Between this and twice this
-/// length the slip slows down.
+/// Untensioned length of a segment at which its webbing has run out, so that no more slips out of it \[m\]. Between
+/// this and twice this length the slip slows down.
 pub const RUN_OUT: f64 = 5e-3;
 
-/// Resistance of a ring, and of webbing that tightens on a reel, where none is given \[N s/m\].
+/// Resistance of a ring, and of webbing that tightens on a reel, if the user gives none \[N s/m\].
 pub const RESISTANCE: f64 = 50.0;
 
-/// What is required of a belt whose length at the start follows from where its ends are, in words.
+/// The condition on a belt whose length at the start follows from the positions of its ends, in words.
 pub fn must_have_length(belt: &str) -> String {
     format!("the ends of belt \"{belt}\" must not coincide at the start")
 }
@@ -109,33 +112,33 @@ pub fn must_have_length(belt: &str) -> String {
 /// A reel that pays out and takes in webbing under a constant tension until it locks.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Retractor {
-    /// Index into [`Model::switches`](crate::model::Model::switches).
+    /// The switch that locks the reel: index into [`Model::switches`](crate::model::Model::switches).
     pub lock: usize,
-    /// Tension until then \[N\], not negative.
+    /// Tension until the reel locks \[N\], not negative.
     pub spool: Number,
 }
 
 /// A ring that a belt slips through.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ring {
-    /// Unique in its belt.
+    /// Name, unique in the belt.
     pub name: String,
-    /// Where it is.
+    /// The position of the ring.
     pub on: Attachment,
-    /// Coefficient of friction μ: webbing slips where the tensions differ by more than the factor e^(μ θ).
+    /// Coefficient of friction μ: webbing slips if the tensions differ by more than the factor e^(μ θ).
     pub friction: Option<Number>,
-    /// Resistance: tension beyond the ratio e^(μθ), per rate of slip \[N s/m\], positive.
+    /// Resistance: tension beyond the ratio e^(μθ), divided by the rate of slip \[N s/m\], positive.
     pub resistance: Number,
 }
 
 /// A device that takes webbing in.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Pretensioner {
-    /// Index into [`Model::switches`](crate::model::Model::switches).
+    /// The switch that fires the device: index into [`Model::switches`](crate::model::Model::switches).
     pub fire: usize,
-    /// Time from then until it begins \[s\], not negative.
+    /// Time from firing until webbing is taken in \[s\], not negative.
     pub delay: Option<Number>,
-    /// Length taken in against the time since it began \[s\] → \[m\], from (0, 0) on.
+    /// Length taken in against the time since then \[s\] → \[m\], beginning at (0, 0).
     pub retract: ScaledCurve,
 }
 
@@ -196,7 +199,7 @@ pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
     })
 }
 
-/// Reports a belt whose ends and rings are all on one body; rings are `None` where one of them is wrong.
+/// Reports a belt whose ends and rings are all on one body. `rings` is `None` if one of them is wrong.
 fn check_bodies(
     resolver: &Resolver<'_>,
     name: &str,
@@ -224,7 +227,7 @@ fn check_bodies(
     resolver.problems.add(at.problem(message, help));
 }
 
-/// The rings that it runs through; none where one of them is wrong.
+/// The rings that the belt runs through; `None` if one of them is wrong.
 fn rings(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Vec<Ring>> {
     let at = at.key("through");
     let mut rings: Vec<Ring> = Vec::new();
@@ -267,7 +270,8 @@ fn rings(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Vec<R
     all.then_some(rings)
 }
 
-/// By what the tension of a locked reel exceeds that of the spool, against the webbing that has come off it.
+/// The curve of the film spool: tension of a locked reel beyond that of the spool, against the webbing that has come
+/// off it.
 fn film_spool(
     resolver: &mut Resolver<'_>,
     written: &WrittenRetractor,
@@ -295,7 +299,7 @@ fn film_spool(
     film
 }
 
-/// The tension against the relative elongation; one that is 0 everywhere is reported.
+/// The curve of tension against relative elongation. A curve that is 0 everywhere is reported.
 fn acting_tension(
     resolver: &mut Resolver<'_>,
     written: &Written,
@@ -323,7 +327,7 @@ fn acting_tension(
     force
 }
 
-/// The tension against the relative elongation; `None` where it is wrong, missing, or 0 everywhere.
+/// The curve of tension against relative elongation; `None` if it is wrong, missing, or 0 everywhere.
 fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<ScaledCurve> {
     if written.force.is_none() && written.stiffness.is_none() {
         resolver.problems.add(at.problem(
@@ -345,7 +349,7 @@ fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
     )
 }
 
-/// The force per relative elongation of a stiffness in newtons per metre; `None` of one in newtons.
+/// A stiffness in newtons per metre, converted to force per relative elongation; `None` for a stiffness in newtons.
 fn per_length(
     resolver: &Resolver<'_>,
     written: &Written,
@@ -356,7 +360,7 @@ fn per_length(
     let before = resolver.problems.count();
     let measured = resolver.measured(stiffness, place);
     let Some((number, Measure::Known(dimension))) = measured else {
-        // what is reported here is not reported again
+        // 0 after a problem, so that the caller does not report it again
         return (resolver.problems.count() > before).then_some(Number::ZERO);
     };
     if dimension != STIFFNESS.dimension {
@@ -387,7 +391,7 @@ fn limiter(
     resolver.number(&written.force, place, FORCE)
 }
 
-/// The reel; none where its switch is wrong.
+/// The reel; `None` if its switch is wrong.
 fn retractor(
     resolver: &Resolver<'_>,
     written: &WrittenRetractor,
@@ -413,7 +417,7 @@ fn retractor(
     Some(Retractor { lock: lock?, spool })
 }
 
-/// What takes webbing in; none where its switch is wrong or it takes in nothing.
+/// The pretensioner; `None` if its switch is wrong, or it takes nothing in.
 fn pretensioner(
     resolver: &mut Resolver<'_>,
     written: &WrittenPretensioner,
@@ -439,7 +443,7 @@ fn pretensioner(
     })
 }
 
-/// How the untensioned length is given.
+/// The untensioned length, in the way in which it is written.
 fn untensioned(
     resolver: &Resolver<'_>,
     written: &Written,
@@ -480,8 +484,8 @@ fn untensioned(
     }
 }
 
-/// A tension belongs to one elongation only where the curve rises, or falls, all the way from (0, 0) on. `what` needs it. How it is
-/// scaled is a requirement of the force.
+/// Reports a curve that does not rise, or fall, all the way from (0, 0): a tension then does not belong to exactly one
+/// elongation, as `what` requires. The factor of the curve is checked by a requirement of the force.
 fn check_invertible(resolver: &Resolver<'_>, force: &ScaledCurve, what: &str, at: At<'_>) {
     let Some((curve, _)) = resolver.curve_of(force) else {
         return;
@@ -500,7 +504,7 @@ fn check_invertible(resolver: &Resolver<'_>, force: &ScaledCurve, what: &str, at
     }
 }
 
-/// How what carries the root of a system is turned at the start.
+/// The rotation at the start of the vehicle or frame that carries the root of a system.
 fn reference_rotation(resolver: &Resolver<'_>, system: &System) -> Matrix {
     match &system.reference {
         Reference::Riding { vehicle, .. } => {
@@ -510,7 +514,7 @@ fn reference_rotation(resolver: &Resolver<'_>, system: &System) -> Matrix {
     }
 }
 
-/// Reports belts whose ends coincide at the start, so that their untensioned length is nothing.
+/// Reports belts whose ends coincide at the start, so that their untensioned length is 0.
 pub(crate) fn check_belts(resolver: &Resolver<'_>, loaded: &Loaded) {
     let frames: Vec<_> = resolver
         .systems

@@ -1,4 +1,4 @@
-//! What can be asked of a belt: of the whole, of a segment, of a ring.
+//! Outputs of a belt: of the whole, of a segment, of a ring.
 
 use super::check::Belt;
 use crate::description::output::Output as Written;
@@ -12,7 +12,7 @@ use crate::model::resolve::output::has_direction;
 use crate::model::{Body, Quantity};
 use serde::Serialize;
 
-/// Of a belt.
+/// A quantity of a belt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum BeltQuantity {
     /// Tension \[N\].
@@ -23,20 +23,21 @@ pub enum BeltQuantity {
     Elongation,
     /// L₀ \[m\].
     UntensionedLength,
-    /// Growth of L₀ since the start \[m\]; of a belt that runs through rings of all segments together.
+    /// Growth of L₀ since the start \[m\]; if the belt runs through rings, the sum over all segments.
     Payout,
-    /// Untensioned length of webbing that has slipped through a ring since the start, from the side of `from` \[m\].
+    /// Untensioned length of webbing that has slipped through a ring since the start, positive from the side of `from`
+    /// \[m\].
     Slip,
-    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    /// Elongation at which the force on the unloading line is 0; 0 without hysteresis.
     PermanentSet,
 }
 
-/// Which quantity of a belt, and of which part.
+/// A quantity of a belt, and the part that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct BeltOutput {
-    /// The segment, or the ring, counted from the end `from`; 0 where there are no rings.
+    /// Index of the segment or ring, counted from the end `from`; 0 in a belt without rings.
     pub part: usize,
-    /// What of it.
+    /// The quantity.
     pub what: BeltQuantity,
 }
 
@@ -120,7 +121,7 @@ fn ring(resolver: &Resolver<'_>, written: &Written, belt: &Belt, at: At<'_>) -> 
     found
 }
 
-/// The segment that an output asks for, from 0 on.
+/// Index of the segment that an output asks for.
 fn segment(resolver: &Resolver<'_>, written: &Written, belt: &Belt, at: At<'_>) -> Option<usize> {
     let count = belt.rings.len() + 1;
     match written.segment {
@@ -146,30 +147,30 @@ fn segment(resolver: &Resolver<'_>, written: &Written, belt: &Belt, at: At<'_>) 
     }
 }
 
-/// Of a belt.
+/// Expressions of the quantities of a belt.
 pub struct BeltMeasures<'g> {
-    /// The force on each of its points, from its end `from` to its end `to` \[N\].
+    /// The force on each point of the belt, from the end `from` to the end `to` \[N\].
     pub on: Vec<Vec3<'g>>,
-    /// Its straight parts, from `from` on.
+    /// The straight parts, from `from` on.
     pub segments: Vec<SegmentMeasures<'g>>,
-    /// What has slipped through each ring, from the side of `from` \[m\].
+    /// Length that has slipped through each ring, positive from the side of `from` \[m\].
     pub slipped: Vec<Expr<'g>>,
-    /// What its untensioned length has grown since the start \[m\].
+    /// Growth of the untensioned length since the start \[m\].
     pub payout: Expr<'g>,
 }
 
-/// Of a straight part of a belt.
+/// Expressions of the quantities of a straight part of a belt.
 #[derive(Clone, Copy)]
 pub struct SegmentMeasures<'g> {
     /// Tension \[N\].
     pub tension: Expr<'g>,
-    /// Distance of its points \[m\].
+    /// Distance of the end points \[m\].
     pub length: Expr<'g>,
     /// Relative elongation.
     pub elongation: Expr<'g>,
     /// Untensioned length \[m\].
     pub untensioned: Expr<'g>,
-    /// Elongation at which the unloading line meets no force; 0 without hysteresis.
+    /// Elongation at which the force on the unloading line is 0; 0 without hysteresis.
     pub permanent_set: Expr<'g>,
 }
 

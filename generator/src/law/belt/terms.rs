@@ -77,7 +77,7 @@ impl Terms for Belt {
     }
 
     fn settle(&mut self) {
-        // Without an elastic force no length gives the pretension.
+        // Without an elastic force, no length gives the pretension.
         if !self.force.is_in() && matches!(self.length, BeltLength::Pretension(_)) {
             self.length.leave_out();
         }
@@ -87,7 +87,7 @@ impl Terms for Belt {
         if self.damping.is_none() {
             self.damping_stretch = None;
         }
-        // The length is what the reel has paid out.
+        // With a retractor, the length follows from the tension of its spool.
         match self.retractor {
             Some(_) => self.length.leave_out(),
             None => self.film_spool = None,
@@ -158,7 +158,7 @@ impl Terms for Belt {
     }
 }
 
-/// The untensioned length; absent where the belt is just taut at the start.
+/// The untensioned length, as a part that may be left out: then the belt is just taut at the start.
 impl Part for BeltLength {
     fn is_in(&self) -> bool {
         match self {
@@ -194,7 +194,8 @@ as_written! {
 }
 
 impl List<'_> {
-    /// A tension has exactly one elongation only if the curve rises up to it. Its points decide whether it rises all the way.
+    /// Adds the condition that the curve rises up to this tension, so that the tension has exactly one elongation. Its
+    /// points decide whether it rises all the way.
     fn reached(&mut self, path: &str, tension: &Number, curve: &Curve, times: &Number) {
         let last = curve.points.len() - 1;
         let reach = curve.points[last][1];

@@ -14,24 +14,25 @@ use serde::Serialize;
 /// Springs and dampers in six directions between frames of two bodies.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bushing {
-    /// The frame in whose axes the laws are.
+    /// The frame whose axes define the directions of the laws.
     pub from: Mount,
-    /// The frame that moves against it.
+    /// The frame that moves relative to `from`.
     pub to: Mount,
-    /// Laws of the displacement, by axis; in the plane the first and third are used.
+    /// Laws of the displacement along each axis; in the plane the first and third are used.
     pub along: [Direction; 3],
-    /// Laws of the rotation, by Bryant angle; in the plane the second is used.
+    /// Laws of the rotation, one for each Bryant angle; in the plane the second is used.
     pub about: [Direction; 3],
-    /// Law of the angle φ of the whole rotation, about its axis, in space. There are no laws by Bryant angle beside it.
+    /// Law of the angle φ of the whole rotation about its axis, in space. It excludes laws of Bryant angles.
     pub turn: Direction,
 }
 
 /// A frame on a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mount {
-    /// Its origin.
+    /// The origin of the frame.
     pub on: Attachment,
-    /// Bryant angles of its axes relative to the body's frame \[rad\]. In the plane only the second.
+    /// Bryant angles of the axes of the frame relative to the body's frame \[rad\]. In the plane only the second is
+    /// used.
     pub axes: [Number; 3],
 }
 
@@ -44,13 +45,13 @@ pub struct Direction {
     pub damping: Option<Number>,
 }
 
-/// What the numbers of a direction are: of the curve, of its slope, of the damping.
+/// The physical quantities of a direction's numbers: abscissa, ordinate and slope of the curve; the damping.
 type Measures = ([Expected; 3], Expected);
 
-/// Along an axis.
+/// For a law along an axis.
 const ALONG: Measures = ([LENGTH, FORCE, STIFFNESS], LINEAR_DAMPING);
 
-/// About an axis.
+/// For a law about an axis.
 const ABOUT: Measures = ([ANGLE, TORQUE, ANGULAR_STIFFNESS], ANGULAR_DAMPING);
 
 /// The checked form of a bushing.
@@ -124,7 +125,7 @@ fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
     })
 }
 
-/// The laws of the bushing of this name under this key.
+/// The laws under `key` of the bushing called `name`.
 fn directions(
     resolver: &mut Resolver<'_>,
     written: Option<[&Option<WrittenDirection>; 3]>,

@@ -1,25 +1,28 @@
 //! Bushings: a spring and a damper in each of six directions, between a frame on one body and a frame on another.
 //!
-//! With the origins p₁, p₂ of the frames, their axes A₁, A₂ and velocities v, ω of the bodies, v₁ being that of the first body's material at p₂,
+//! p₁, p₂ are the origins of the frames, A₁, A₂ their axes, v, ω the velocities of the bodies; v₁ is the velocity of
+//! the first body's material at p₂. The force
 //!
 //! d = A₁ᵀ (p₂ − p₁),   ḋ = A₁ᵀ (v₂ − v₁),   F = −A₁ (f_i(d_i) + c_i ḋ_i)
 //!
-//! acts on the second body at p₂, and −F on the first at the same place: so the power is −Σ (f_i + c_i ḋ_i) ḋ_i. The rotation is given by the Bryant
-//! angles θ of A₁ᵀ A₂, and the moment on the second body, opposite to that on the first, is of the form that does the work Q·θ̇ (as in [joints](
-//! crate::law::joint::force)):
+//! acts on the second body at p₂, and −F on the first body at the same point: so the power is −Σ (f_i + c_i ḋ_i) ḋ_i.
+//! The rotation is given by the Bryant angles θ of A₁ᵀ A₂. The moment on the second body, which is opposite to that on
+//! the first, does the work Q·θ̇ (as in [joints](crate::law::joint::force)):
 //!
 //! M = −Σ (g_i(θ_i) + e_i θ̇_i) n_i,   θ̇_i = n_i · (ω₂ − ω₁)
 //!
-//! A law of the whole rotation acts along its axis n, by its angle φ, and is damped about all axes alike:
+//! A law of the whole rotation acts along the axis n of the rotation, as a function of its angle φ; its damping is the
+//! same about all axes:
 //!
 //! M = −g(φ) n − e (ω₂ − ω₁),   2 sin φ n = Σ a_i × b_i,   2 cos φ + 1 = Σ a_i · b_i,   φ̇ = n · (ω₂ − ω₁)
 //!
-//! with the axes a_i of A₁ and b_i of A₂ (the antisymmetric part and the trace of A₁ᵀ A₂). So it stores ∫g dφ, and is regular up to φ = 180°, where n
-//! turns back.
+//! with the axes a_i of A₁ and b_i of A₂ (the antisymmetric part and the trace of A₁ᵀ A₂). So it stores ∫g dφ, and is
+//! regular up to φ = 180°, where n reverses its direction.
 //!
-//! For small angles n_i are the axes. At θ₂ = ±90° the first and the third angle are not defined: they leap by half a turn, and θ₂ turns back. A run that
-//! goes through that says so by the [bearing](bryant_bearing); one in which θ₁ or θ₃ of an elastic law, or φ, goes through 180°, where the torque jumps,
-//! says so, too. In the plane there are d₁, d₃ and θ₂, and nothing is singular.
+//! For small angles the n_i are the axes. At θ₂ = ±90° the first and the third angle are undefined: they jump by half a
+//! turn, and θ₂ turns back. A run that passes through it reports so by means of the [bearing](bryant_bearing). A run in
+//! which θ₁ or θ₃ of an elastic law, or φ, passes through 180°, where the torque jumps, reports that too. In the plane
+//! there are d₁, d₃ and θ₂, and nothing is singular.
 
 use super::check::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
@@ -35,7 +38,7 @@ use crate::model::Dimension;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Below this, sin² φ is taken for it: the square of the rounding of a unit vector.
+/// Lower bound of sin² φ: the square of the rounding error of a unit vector.
 const SMALLEST_SINE_SQUARED: f64 = 1e-32;
 
 impl Equations for Bushing {
@@ -80,7 +83,7 @@ impl Equations for Bushing {
     }
 }
 
-/// Tells where the first or the third angle of an elastic law goes through ±180°.
+/// Watches the first and the third angle of an elastic law for passing through ±180°.
 fn watch_half_turns<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
@@ -99,7 +102,7 @@ fn watch_half_turns<'g>(
     }
 }
 
-/// d, and the force on the first body.
+/// The displacement d, and the force on the first body.
 fn push<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
@@ -124,17 +127,17 @@ fn push<'g>(
     (displacement, force)
 }
 
-/// The rotation of the second frame against the first, and what resists it.
+/// The rotation of the second frame relative to the first, and the moment that resists it.
 struct Turned<'g> {
-    /// Bryant angles, or the vector of the whole rotation \[rad\].
+    /// Bryant angles, or the components of the vector of the whole rotation \[rad\].
     angles: [Expr<'g>; 3],
-    /// Angle of the whole rotation, where there is a law of it \[rad\].
+    /// Angle of the whole rotation, if there is a law of it \[rad\].
     turn: Expr<'g>,
     /// The moment on the first body.
     moment: Vec3<'g>,
 }
 
-/// φ, φ n in the axes of the first frame, and the moment on the first body.
+/// φ, the vector φ n in the axes of the first frame, and the moment on the first body.
 fn turn_as_a_whole<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
@@ -193,7 +196,7 @@ fn turn_as_a_whole<'g>(
     }
 }
 
-/// θ, and the moment on the first body.
+/// The Bryant angles θ, and the moment on the first body.
 fn turn<'g>(
     bushing: &Bushing,
     setting: Setting<'_, 'g>,
@@ -235,7 +238,7 @@ fn axes<'g>(setting: Setting<'_, 'g>, mount: &Mount) -> Mat3<'g> {
     setting.motion.body(mount.on.on).rotation.product(&own)
 }
 
-/// What a direction, with its coordinate and the rate of that, resists with.
+/// The force or moment f + c ẋ of one direction, from its coordinate and rate.
 fn resistance<'g>(
     law: &Direction,
     (way, value, rate): (String, Expr<'g>, Expr<'g>),

@@ -1,4 +1,4 @@
-//! What can be asked of a bushing.
+//! Outputs of a bushing.
 
 use super::check::{Bushing, Direction};
 use crate::description::output::Output as Written;
@@ -10,17 +10,17 @@ use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
 use serde::Serialize;
 
-/// Of a bushing.
+/// A quantity of a bushing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum BushingQuantity {
-    /// Force on a body \[N\]; whether that is the second, which feels the opposite of the first.
+    /// Force on a body \[N\]; true for the second body, on which the opposite of the force on the first acts.
     Force(bool, Projection),
-    /// Moment on a body \[N m\], likewise.
+    /// Moment on a body \[N m\]; true for the second body.
     Moment(bool, Projection),
     /// Displacement of the second frame in the axes of the first \[m\].
     Displacement(Component),
-    /// Bryant angle of the second frame against the first \[rad\], by its index; of a bushing with a law of the whole rotation a component of the
-    /// vector of this rotation, in the axes of the first frame.
+    /// Bryant angle of the second frame relative to the first \[rad\], by its index. With a law of the whole rotation:
+    /// a component of the vector of this rotation, in the axes of the first frame.
     Angle(usize),
     /// Angle of the whole rotation \[rad\].
     Turn,
@@ -59,7 +59,7 @@ impl OfLaw for BushingQuantity {
     }
 }
 
-/// Name, unit, and whether it is asked of a body, whether it is about an axis.
+/// Name, unit, and two flags: the quantity needs a body; the quantity is about an axis.
 const TABLE: [(&str, &str, [bool; 2]); 4] = [
     ("force", "N", [true, false]),
     ("moment", "N*m", [true, true]),
@@ -124,7 +124,7 @@ impl Outputs for Bushing {
     }
 }
 
-/// Of a bushing.
+/// Expressions of the quantities of a bushing.
 pub struct BushingMeasures<'g> {
     /// Force on the first body \[N\].
     pub force: Vec3<'g>,
@@ -132,9 +132,9 @@ pub struct BushingMeasures<'g> {
     pub moment: Vec3<'g>,
     /// Displacement of the second frame in the axes of the first \[m\].
     pub displacement: Vec3<'g>,
-    /// Bryant angles of the second frame against the first, or the vector of the whole rotation \[rad\].
+    /// Bryant angles of the second frame relative to the first, or the vector of the whole rotation \[rad\].
     pub angles: [Expr<'g>; 3],
-    /// Angle of the whole rotation, where there is a law of it \[rad\].
+    /// Angle of the whole rotation, if there is a law of it \[rad\].
     pub turn: Expr<'g>,
 }
 

@@ -1,4 +1,4 @@
-//! The terms of a bushing: elastic and viscous, of each direction.
+//! The terms of a bushing: elastic and viscous, for each direction.
 
 use super::check::{Bushing, Direction, Mount};
 use crate::law::Terms;
@@ -50,7 +50,7 @@ impl Terms for Bushing {
     }
 }
 
-/// The law along or about an axis, or of the whole rotation.
+/// Adds the terms of the law along or about an axis, or of the whole rotation.
 fn direction<'a>(law: &'a mut Direction, key: &str, axis: &str, fields: &mut Vec<Field<'a>>) {
     let Direction { elastic, damping } = law;
     let term = |term: &str| {

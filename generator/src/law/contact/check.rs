@@ -16,10 +16,10 @@ use crate::model::resolve::{NOWHERE, Resolver, name::Style};
 use crate::model::{Attachment, Body, Bristle, Friction, Hysteresis, Number, ScaledCurve};
 use serde::Serialize;
 
-/// Sliding speed at which contact friction is fully there, where none is given \[m/s\].
+/// Sliding speed from which on contact friction has its full size, if the user gives none \[m/s\].
 const FRICTION_SPEED: f64 = 0.01;
 
-/// Penetration at which damping is fully there, where none is given \[m\].
+/// Penetration from which on damping has its full size, if the user gives none \[m\].
 const DAMPING_DEPTH: f64 = 1e-3;
 
 /// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
@@ -32,37 +32,38 @@ pub struct Contact {
     pub ellipsoid: Attachment,
     /// Semi-axes along the ellipsoid's own axes \[m\], positive. In the plane the first and third (x, z) are used.
     pub semi_axes: [Number; 3],
-    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second.
+    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second is
+    /// used.
     pub axes: [Number; 3],
-    /// n of Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, more are rounded boxes.
+    /// Exponent n of the surface Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, larger numbers are rounded boxes.
     pub degree: u32,
-    /// What it meets, on another body.
+    /// The plane or ellipsoid that the ellipsoid meets, on another body.
     pub against: Against,
     /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
     pub elastic: Option<ScaledCurve>,
-    /// Unloading along another curve than `elastic`, against the penetration \[m\].
+    /// A different curve for unloading, against the penetration \[m\].
     pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never below zero.
+    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never negative.
     pub damping: Option<Number>,
-    /// Penetration up to which damping grows from 0 to its whole \[m\]; without one it is there at once.
+    /// Penetration up to which damping grows from 0 to its full size \[m\]; `None` for full damping at once.
     pub damping_depth: Option<Number>,
     /// Coulomb friction on the normal force.
     pub friction: Option<Friction>,
-    /// By what friction holds; without one it only resists motion.
+    /// The bristle by which friction holds; without one, friction only resists motion.
     pub bristle: Option<Bristle>,
 }
 
-/// What an ellipsoid meets.
+/// The surface that an ellipsoid meets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum Against {
     /// A plane.
     Plane(Plane),
-    /// An ellipsoid; both are of degree 2 then.
+    /// An ellipsoid. Both ellipsoids must then be of degree 2.
     Ellipsoid(Ellipsoid),
 }
 
 impl Against {
-    /// The body that it belongs to, and a point of it: of the plane, or the centre of the ellipsoid.
+    /// The body of the surface and a point on it: a point of the plane, or the centre of the ellipsoid.
     pub fn place(&self) -> &Attachment {
         match self {
             Against::Plane(plane) => &plane.at,
@@ -70,7 +71,7 @@ impl Against {
         }
     }
 
-    /// The same, to be changed.
+    /// Like [`place`](Self::place), mutable.
     pub fn place_mut(&mut self) -> &mut Attachment {
         match self {
             Against::Plane(plane) => &mut plane.at,
@@ -78,7 +79,7 @@ impl Against {
         }
     }
 
-    /// The plane, if it is one.
+    /// The plane; `None` for an ellipsoid.
     pub fn plane(&self) -> Option<&Plane> {
         match self {
             Against::Plane(plane) => Some(plane),
@@ -90,20 +91,20 @@ impl Against {
 /// A plane that an ellipsoid meets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plane {
-    /// A point of it.
+    /// A point of the plane.
     pub at: Attachment,
-    /// Unit normal, in its body's local frame, pointing to the side where the ellipsoid belongs.
+    /// Unit normal in the local frame of the plane's body, pointing to the side where the ellipsoid belongs.
     pub normal: [Number; 3],
-    /// In space: unit vector along it, in its body's local frame; a second one is normal × tangent.
+    /// In space: a unit vector along the plane, in the local frame of its body. A second one is normal × tangent.
     pub tangent: [Number; 3],
-    /// Where it ends; without one nowhere.
+    /// The edges of the plane; `None` for a plane without end.
     pub extent: Option<Extent>,
 }
 
 /// An ellipsoid that an ellipsoid meets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Ellipsoid {
-    /// Its centre.
+    /// The centre of the ellipsoid.
     pub center: Attachment,
     /// As [`Contact::semi_axes`].
     pub semi_axes: [Number; 3],
@@ -111,14 +112,14 @@ pub struct Ellipsoid {
     pub axes: [Number; 3],
 }
 
-/// What is only shown.
+/// A shape that is drawn, but takes part in no contact.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shown {
-    /// An ellipsoid that meets nothing, and its [degree](Contact::degree).
+    /// An ellipsoid, and its [degree](Contact::degree).
     Round(Ellipsoid, u32),
-    /// A plane that nothing meets.
+    /// A plane.
     Plane(Plane),
-    /// A mesh.
+    /// A mesh of triangles.
     Mesh(Mesh),
 }
 
@@ -134,37 +135,38 @@ pub enum Triangles {
 /// Triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mesh {
-    /// What it is shown with.
+    /// The body that the mesh moves with.
     pub on: Body,
     /// What it is made of.
     pub of: Triangles,
     /// The file that names it.
     pub source: String,
-    /// The line of that file.
+    /// The line in that file.
     pub line: usize,
-    /// Its origin in the body's frame \[m\].
+    /// The origin of the mesh in the body's frame \[m\].
     pub at: [f64; 3],
-    /// Bryant angles of its axes relative to the body's frame \[rad\].
+    /// Bryant angles of the axes of the mesh relative to the body's frame \[rad\].
     pub angles: [f64; 3],
-    /// Factors on its coordinates.
+    /// Factors on the coordinates of the mesh, one for each axis.
     pub scale: [f64; 3],
 }
 
 /// The finite extent of a plane.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Extent {
-    /// From the point of the plane to its edges, along the tangent and, in space, along normal × tangent \[m\].
+    /// Distances from the point of the plane to its edges, along the tangent and, in space, along normal × tangent
+    /// \[m\].
     pub half_lengths: Vec<Number>,
-    /// What becomes of the force there.
+    /// The way in which the force ends at the edges.
     pub rule: EdgeRule,
 }
 
-/// What becomes of a contact's force at the edge of a plane.
+/// The way in which the force of a contact ends at the edge of a plane.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum EdgeRule {
-    /// It is there while the deepest point projects inside, and nowhere else.
+    /// The full force acts while the deepest point projects inside the edges, and none outside.
     Cut,
-    /// It fades over this width inside the edge \[m\].
+    /// The force fades to 0 over this width inside the edge \[m\].
     Fade(Number),
 }
 
@@ -253,7 +255,7 @@ pub(crate) fn contact(
     })
 }
 
-/// What an ellipsoid of this degree meets, and where that is written.
+/// The surface that an ellipsoid of degree `of_first` meets, and the place where it is written.
 fn against<'w>(
     resolver: &Resolver<'_>,
     written: &Written,
@@ -299,7 +301,7 @@ fn against<'w>(
     }
 }
 
-/// Reports a contact of two things on the same body; the second is at `place`.
+/// Reports a contact of two surfaces on the same body; the second is written at `place`.
 fn check_bodies(
     resolver: &Resolver<'_>,
     name: &str,
@@ -320,12 +322,14 @@ fn check_bodies(
     ));
 }
 
-/// Width over which a force fades at least at an edge, where none is given \[m\].
+/// Smallest default of the width over which a force fades at an edge \[m\].
 pub(super) const EDGE_WIDTH: f64 = 10e-3;
 
-/// Gives a fading edge the width of the depth that is to be expected: the last point of the elastic curve, or the smallest semi-axis of the
-/// ellipsoid if that is less. The push E S'/width of the edge, S' ≤ 3/2, is then at most 3/4 of the force f of the surface up to this depth δ, if f
-/// does not bend down: its energy E is at most f δ/2.
+/// Sets the width of a fading edge for which the user gives none to the penetration that is to be expected, but to no
+/// less than [`EDGE_WIDTH`] and no more than the half-lengths. This penetration is the last point of the elastic curve,
+/// or the smallest semi-axis of the ellipsoid if that is less. The push of the edge, E S'/width with S' ≤ 3/2, is then
+/// at most 3/4 of the force f of the surface up to this penetration δ, if the curve of f does not bend down: its energy
+/// E is at most f δ/2.
 fn fade_over_depth(
     resolver: &Resolver<'_>,
     extent: &mut Extent,
@@ -341,7 +345,7 @@ fn fade_over_depth(
         depth = Number::smaller(depth, y);
     }
     let Some(elastic) = elastic else {
-        // nothing is stored, and the edge does not push
+        // without an elastic force no energy is stored, and the edge does not push
         return;
     };
     let curve = resolver.curves.get(elastic.curve).and_then(Option::as_ref);
@@ -357,7 +361,8 @@ fn fade_over_depth(
     *width = halves.fold(negative(least), Number::smaller);
 }
 
-/// Reports an edge that fades where the force has no energy as a function of the penetration, or leaps.
+/// Reports a fading edge where the force has no energy as a function of the penetration, or its point of application
+/// leaps.
 fn check_fading_edge(
     resolver: &Resolver<'_>,
     against: Option<&Against>,
@@ -385,7 +390,7 @@ fn check_fading_edge(
     }
 }
 
-/// Judges a named surface, also where no contact names it.
+/// Checks a named surface, even if no contact names it.
 pub(crate) fn surface(
     resolver: &Resolver<'_>,
     name: &str,
@@ -404,7 +409,7 @@ pub(crate) fn surface(
 }
 
 impl Shown {
-    /// As it is seen; a mesh is no part of a law.
+    /// The shape as part of a picture; `None` for a mesh, which no law has.
     pub fn look(&self) -> Option<Look<'_>> {
         match self {
             Shown::Round(ellipsoid, degree) => Some(Look::Round(Round {
@@ -416,7 +421,7 @@ impl Shown {
         }
     }
 
-    /// The body that it is shown with.
+    /// The body that the shape moves with.
     pub(crate) fn body_mut(&mut self) -> &mut Body {
         match self {
             Shown::Round(ellipsoid, _) => &mut ellipsoid.center.on,
@@ -425,7 +430,7 @@ impl Shown {
         }
     }
 
-    /// Whether it is this part of a law.
+    /// True if the shape is the same as this part of a law.
     pub(crate) fn is_in(&self, look: &Look<'_>) -> bool {
         match (self, look) {
             (Shown::Round(ellipsoid, _), Look::Round(round) | Look::Bag(round, _)) => {
@@ -438,7 +443,7 @@ impl Shown {
         }
     }
 
-    /// The same at these values of the parameters: it changes with none.
+    /// The shape with its numbers replaced by their values at these parameters.
     pub(crate) fn fixed(mut self, parameters: &[f64]) -> Self {
         let mut numbers: Vec<&mut Number> = Vec::new();
         match &mut self {
@@ -460,7 +465,7 @@ impl Shown {
                 numbers.extend(at.at.iter_mut().chain(normal).chain(tangent));
                 if let Some(Extent { half_lengths, rule }) = extent {
                     numbers.extend(half_lengths);
-                    // how its force fades is not seen
+                    // the way in which a force fades cannot be seen
                     *rule = EdgeRule::Cut;
                 }
             }
@@ -473,7 +478,7 @@ impl Shown {
     }
 }
 
-/// An ellipsoid; the degree is for the caller.
+/// The checked form of an ellipsoid. The caller must check the degree.
 pub(crate) fn ellipsoid(
     resolver: &Resolver<'_>,
     written: &WrittenEllipsoid,
@@ -495,7 +500,7 @@ pub(crate) fn ellipsoid(
     })
 }
 
-/// The degree of an ellipsoid, 2 where none is given.
+/// The degree of an ellipsoid; 2 if none is written.
 fn degree(resolver: &Resolver<'_>, written: Option<&Quantity>, at: At<'_>) -> u32 {
     let Some(quantity) = written else { return 2 };
     let (number, value) = resolver.valued(quantity, at, PURE);

@@ -1,4 +1,4 @@
-//! What can be asked of a contact.
+//! Outputs of a contact.
 
 use super::check::{Against, Contact};
 use crate::description::output::Output as Written;
@@ -11,7 +11,7 @@ use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use serde::Serialize;
 
-/// Of a contact.
+/// A quantity of a contact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum ContactQuantity {
     /// Resultant force \[N\].
@@ -72,10 +72,10 @@ impl Outputs for Contact {
     }
 }
 
-/// Of a contact.
+/// Expressions of the quantities of a contact.
 #[derive(Clone, Copy)]
 pub struct ContactMeasures<'g> {
-    /// The whole force on the body of its `ellipsoid` \[N\].
+    /// The whole force on the body of the contact's `ellipsoid` \[N\].
     pub on_first: Vec3<'g>,
     /// Magnitude of the whole force \[N\].
     pub force: Expr<'g>,
@@ -85,7 +85,7 @@ pub struct ContactMeasures<'g> {
     pub friction: Expr<'g>,
     /// Penetration \[m\].
     pub penetration: Expr<'g>,
-    /// Penetration at which the unloading line meets no force \[m\]; 0 without hysteresis.
+    /// Penetration at which the force on the unloading line is 0 \[m\]; 0 without hysteresis.
     pub permanent_set: Expr<'g>,
 }
 

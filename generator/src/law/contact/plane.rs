@@ -1,4 +1,4 @@
-//! Planes that ellipsoids meet: their directions, and where they end.
+//! Planes that ellipsoids meet: their directions and their edges.
 
 use super::check::EDGE_WIDTH;
 use super::keys::{EdgeRule as WrittenRule, Plane as Written};
@@ -23,7 +23,7 @@ pub(crate) fn plane(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> O
     })
 }
 
-/// The normal at unit length. Its components may be lengths or pure numbers, all that matters is their ratio.
+/// The normal, scaled to length 1. Its components may be lengths or pure numbers, as only their ratio matters.
 fn normal(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> [Number; 3] {
     let before = resolver.problems.count();
     let vector = resolver.vector(&plane.normal, at, PURE);
@@ -33,7 +33,8 @@ fn normal(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> [Number; 3] {
     }
 }
 
-/// A vector at unit length. Its components are neither so large nor so small that their squares overflow or lose their digits.
+/// A vector, scaled to length 1. Its components must be neither so large nor so small that their squares overflow or
+/// lose digits.
 pub(crate) fn unit(resolver: &Resolver<'_>, vector: [Number; 3]) -> [Number; 3] {
     let length = if vector.iter().all(|n| n.constant().is_some()) {
         let squares = vector.iter().map(|n| {
@@ -48,7 +49,8 @@ pub(crate) fn unit(resolver: &Resolver<'_>, vector: [Number; 3]) -> [Number; 3] 
     vector.map(|n| Number::quotient(n, length.clone()))
 }
 
-/// In space, the direction `along`, or the one in the plane that is nearest to an axis.
+/// In space, the direction along the plane: that of the key `along`, or the direction in the plane that is nearest to
+/// an axis.
 fn tangent(
     resolver: &Resolver<'_>,
     normal: &[Number; 3],
@@ -89,7 +91,7 @@ fn tangent(
     if plane.along.is_some() {
         return unit(resolver, tangent);
     }
-    // of a normal without a direction there is none along the plane
+    // if the normal has no direction, there is none along the plane
     let squares = tangent.iter().map(|n| {
         let n = n.value(&resolver.defaults);
         n * n
@@ -100,7 +102,7 @@ fn tangent(
     }
 }
 
-/// Where a plane ends.
+/// The edges of a plane.
 fn extent(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> Option<Extent> {
     let (extent_at, edge_at) = (at.key("extent"), at.key("edge"));
     let Some(written) = &plane.extent else {

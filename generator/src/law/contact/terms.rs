@@ -1,4 +1,4 @@
-//! The terms of a contact, and what the numbers of a plane must keep together.
+//! The terms of a contact, and the conditions that the numbers of a plane must meet together.
 
 use super::check::{Against, Contact, EdgeRule, Ellipsoid, Extent, Plane};
 use crate::law::Terms;
@@ -7,7 +7,7 @@ use crate::model::requirement::{Curves, List};
 use crate::model::rule::{Rule, Ruled};
 use crate::model::{Body, Dimension, Number};
 
-/// Largest product of a tangent and a normal of a plane that is rounding, squared.
+/// Largest product of tangent and normal, squared, that counts as rounding: up to this they are perpendicular.
 const SQUARE_TO: f64 = 1e-12;
 
 impl Terms for Contact {
@@ -37,7 +37,7 @@ impl Terms for Contact {
             }) => {
                 attachment(at, "plane.at", fields);
                 finite(normal, "plane.normal", fields);
-                // without edges and bristles nothing tells one tangent from another
+                // only edges and bristles depend on the direction of the tangent
                 if extent.is_some() || bristle.is_some() {
                     finite(tangent, "plane.along", fields);
                 }
@@ -106,7 +106,7 @@ impl Terms for Contact {
 
     fn require_first(&self, dimension: Dimension, list: &mut List<'_>) {
         if let Against::Plane(plane) = &self.against {
-            // before its components, which are no numbers where it has no direction
+            // before the conditions of the components, which are NaN if the normal has no direction
             let directed = dimension == Dimension::Space && self.bristle.is_some();
             let ends = dimension == Dimension::Space && plane.extent.is_some();
             list.plane(plane, directed || ends);
@@ -131,13 +131,13 @@ impl Terms for Contact {
         match &mut self.against {
             Against::Plane(plane) => {
                 if let Some(extent) = &mut plane.extent {
-                    // Of its two lengths, the one that is seen.
+                    // Of the two half-lengths, keeps the one that is seen in the plane.
                     let away = plane.tangent[1].constant().is_some_and(|y| y.abs() > 0.5);
                     extent.half_lengths.remove(usize::from(!away));
                 }
                 plane.normal[1] = Number::ZERO;
                 plane.tangent = [Number::ZERO; 3];
-                // Seen from its side, a plane whose normal is y is everywhere.
+                // A plane with its normal along y would fill the whole plane x–z, so the contact is left out.
                 !plane.normal.iter().all(Number::is_zero)
             }
             Against::Ellipsoid(second) => {
@@ -166,10 +166,10 @@ impl Terms for Contact {
     }
 }
 
-/// How far a planar scene reaches along y, out of which nothing moves \[m\].
+/// Extent along y of a planar scene in space: nothing moves out of it \[m\].
 const ENDLESS: f64 = 1e3;
 
-/// Where a plane ends.
+/// The edges of a plane, as a part that may be left out.
 impl Part for Option<Extent> {
     fn is_in(&self) -> bool {
         self.is_some()
@@ -200,7 +200,7 @@ impl Part for Option<Extent> {
     }
 }
 
-/// The shape of an ellipsoid.
+/// Adds the numbers of the shape of an ellipsoid.
 pub(crate) fn shape<'a>(
     semi_axes: &'a mut [Number; 3],
     axes: &'a mut [Number; 3],
@@ -209,7 +209,7 @@ pub(crate) fn shape<'a>(
     fields: &mut Vec<Field<'a>>,
 ) {
     for (axis, number) in semi_axes.iter_mut().enumerate() {
-        // in the plane the second is not used
+        // in the plane the second semi-axis is not used
         let (place, rule) = match (dimension, axis) {
             (Dimension::Space, _) => (axis, Rule::Positive),
             (Dimension::Plane, 1) => (axis, Rule::Finite),

@@ -11,9 +11,9 @@ use serde::Serialize;
 /// Uniform acceleration field: a force m·a at the centre of gravity of every element of `on`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Field {
-    /// Elements that feel it.
+    /// Elements that feel the field.
     pub on: Vec<ElementId>,
-    /// Per absolute axis \[m/s²\].
+    /// Components along the absolute axes \[m/s²\].
     pub acceleration: [FieldComponent; 3],
 }
 
@@ -27,7 +27,7 @@ pub(crate) fn field(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) 
     })
 }
 
-/// The elements of systems and elements named; all where nothing is named.
+/// The elements that are named, one by one or as all elements of a system; all elements if nothing is named.
 fn elements_of(
     resolver: &Resolver<'_>,
     names: Option<&[String]>,

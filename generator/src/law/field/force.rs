@@ -1,6 +1,7 @@
 //! Acceleration field: F = m a at the centre of gravity of each element that feels it.   \[MADYMO 1980, force model 2\]
 //!
-//! A field that all elements of a system feel is not applied to them one by one: it enters once, at the reference joint.
+//! If all elements of a system feel a field, the field is not applied to each of them, but once, to the reference
+//! joint.
 
 use super::check::Field;
 use crate::dynamics::force::{AppliedForces, Product, components};

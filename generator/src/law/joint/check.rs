@@ -1,4 +1,4 @@
-//! Joint forces: laws about relative rotations, in space of flexion and torsion too.
+//! Joint forces: laws of relative rotations and of freedoms; in space also of flexion and torsion.
 
 use super::keys::{
     Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, LongAxis,
@@ -21,19 +21,19 @@ use crate::model::{
 };
 use serde::Serialize;
 
-/// Speed at which joint friction is fully there, where none is given \[rad/s\].
+/// Speed from which on joint friction has its full size, if the user gives none \[rad/s\].
 const FRICTION_SPEED: f64 = 0.1;
 
-/// Speed at which the friction of a slider is fully there, where none is given \[m/s\].
+/// Speed from which on the friction of a slider has its full size, if the user gives none \[m/s\].
 const SLIDING_SPEED: f64 = 0.01;
 
-/// Length behind a stop at which its damping is fully there, where none is given \[m\].
+/// Depth behind a stop from which on its damping has its full size, if the user gives none \[m\].
 const DAMPING_LENGTH: f64 = 1e-3;
 
-/// Angle behind a stop at which its damping is fully there, where none is given: 1° \[rad\].
+/// Angle behind a stop from which on its damping has its full size, if the user gives none: 1° \[rad\].
 const DAMPING_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
-/// What the numbers of a law are.
+/// The physical quantities of the numbers of a law, and its default values.
 #[derive(Clone, Copy)]
 struct Measures {
     coordinate: Expected,
@@ -41,13 +41,13 @@ struct Measures {
     force: Expected,
     stiffness: Expected,
     damping: Expected,
-    /// Speed at which friction is fully there, where none is given.
+    /// Speed from which on friction has its full size, if the user gives none.
     friction_speed: f64,
-    /// Depth behind a stop at which its damping is fully there, where none is given.
+    /// Depth behind a stop from which on damping has its full size, if the user gives none.
     damping_depth: f64,
 }
 
-/// Of a law of an angle.
+/// For a law of an angle.
 const OF_ANGLE: Measures = Measures {
     coordinate: ANGLE,
     rate: RATE,
@@ -58,7 +58,7 @@ const OF_ANGLE: Measures = Measures {
     damping_depth: DAMPING_ANGLE,
 };
 
-/// Of a law of a length.
+/// For a law of a length.
 const OF_LENGTH: Measures = Measures {
     coordinate: LENGTH,
     rate: SPEED,
@@ -69,7 +69,7 @@ const OF_LENGTH: Measures = Measures {
     damping_depth: DAMPING_LENGTH,
 };
 
-/// The keys that in space do not say which rotation they are about.
+/// Keys that are refused for a ball joint in space, as they do not say which rotation they belong to.
 const OF_ONE_ROTATION: [&str; 13] = [
     "elastic",
     "stiffness",
@@ -106,7 +106,7 @@ struct Law<'w> {
 }
 
 impl<'w> Law<'w> {
-    /// What is written of the one coordinate of a joint.
+    /// The keys of a law for the one coordinate of a joint.
     fn of_joint(written: &'w Written, at: At<'w>, measures: Measures) -> Self {
         Law {
             elastic: written.elastic.as_ref(),
@@ -148,26 +148,26 @@ impl<'w> Law<'w> {
     }
 }
 
-/// Torque in the joint that carries `child`, between it and its parent (or the absolute frame, for a root).
+/// Torques in the joint that carries `child`, between `child` and its parent (or the absolute frame, for a root).
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Joint {
     /// The element outboard of the joint.
     pub child: ElementId,
-    /// Laws about the axes x, y, z of the relative rotation A_parentᵀ A_child.
-    /// In the plane only the second is used, its angle being φ_child − φ_parent.
+    /// Laws about the axes x, y, z of the relative rotation A_parentᵀ A_child. In the plane only the second is used;
+    /// its angle is φ_child − φ_parent.
     pub about: [JointTorque; 3],
-    /// The order of the turns whose angles these are, in space.
+    /// The order of the three turns that these angles describe, in space.
     pub order: Order,
     /// Flexion and torsion, in space.
     pub bending: Option<Box<Bending>>,
 }
 
-/// The axes of three turns one after the other, which make a relative rotation: the first is an axis of the carrier, the third one of the
-/// element. 0 is x, 1 is y, 2 is z; each stands there once.
+/// The axes of three successive turns that make up a relative rotation: the first is an axis of the parent, the third
+/// an axis of the element. 0 is x, 1 is y, 2 is z; each occurs once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Order(pub [usize; 3]);
 
-/// x, y, z: Bryant angles.
+/// x, y, z: the order of Bryant angles.
 impl Default for Order {
     fn default() -> Self {
         Order([0, 1, 2])
@@ -175,7 +175,7 @@ impl Default for Order {
 }
 
 impl Order {
-    /// 1 where the axes are a right-handed system in this order, −1 where they are not.
+    /// 1 if the axes in this order are a right-handed system, otherwise −1.
     pub fn hand(self) -> f64 {
         match (self.0[1] + 3 - self.0[0]) % 3 {
             1 => 1.0,
@@ -189,83 +189,85 @@ impl Order {
     }
 }
 
-/// Torque or force of one freedom of the joint that carries `child`, on its own coordinate.
+/// Torque or force on the coordinate of one freedom of the joint that carries `child`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Freedom {
     /// The element outboard of the joint.
     pub child: ElementId,
-    /// Index into its freedoms.
+    /// Index of the freedom among those of the joint.
     pub freedom: usize,
-    /// The law of the coordinate, in \[m\] and \[N\] where it slides.
+    /// The law of the coordinate. For a sliding freedom its units are \[m\] and \[N\].
     pub law: Box<JointTorque>,
 }
 
 /// Torque about one relative rotation.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct JointTorque {
-    /// Elastic torque as a function of the relative angle less `neutral`: resists with −curve. \[rad\] → \[N m\].
+    /// Elastic torque as a function of the relative angle less `neutral`; the torque on the child is −curve. \[rad\] →
+    /// \[N m\].
     pub elastic: Option<ScaledCurve>,
-    /// Relative angle at which the elastic curve has its zero abscissa \[rad\]; none is 0.
+    /// Relative angle at which the abscissa of the elastic curve is zero \[rad\]; `None` for 0.
     pub neutral: Option<Number>,
-    /// What unloading adds to the elastic curve, on both sides of its zero.
+    /// The unloading law of the elastic curve, on both sides of its zero.
     pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient \[N m s/rad\]; none is 0.
+    /// Viscous coefficient \[N m s/rad\]; `None` for 0.
     pub damping: Option<Number>,
-    /// Coulomb friction torque; none is 0.
+    /// Coulomb friction torque; `None` for 0.
     pub friction: Option<Friction>,
-    /// By what the friction holds; without one it is a function of speed.
+    /// The bristle by which friction holds; without one, friction is a function of speed.
     pub bristle: Option<Bristle>,
-    /// Where the rotation ends.
+    /// The ends of the rotation.
     pub stop: Option<Stop>,
-    /// What holds the angle from a switch on.
+    /// A lock that holds the angle as soon as a switch acts.
     pub lock: Option<Lock>,
-    /// Torque of a motor \[N m\]; none is 0.
+    /// Torque of a motor \[N m\]; `None` for 0.
     pub motor: Option<FieldComponent>,
-    /// What drives the angle to one that is given.
+    /// A drive that moves the angle to a given one.
     pub drive: Option<Drive>,
 }
 
-/// The ends of a relative rotation: N(δ) = max(0, stiffness δ + damping min(δ/fade, 1) δ̇) back, at depth δ > 0 beyond.
+/// The ends of a relative rotation. At a depth δ > 0 beyond an end, N(δ) = max(0, stiffness δ + damping min(δ/fade, 1)
+/// δ̇) pushes back.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Stop {
-    /// Smallest angle that is free \[rad\].
+    /// Lower end of the free angles \[rad\].
     pub from: Option<Number>,
-    /// Largest \[rad\].
+    /// Upper end of the free angles \[rad\].
     pub to: Option<Number>,
     /// \[N m/rad\]
     pub stiffness: Number,
-    /// \[N m s/rad\]; none is 0.
+    /// \[N m s/rad\]; `None` for 0.
     pub damping: Option<Number>,
-    /// Depth up to which damping grows from 0 to its whole \[rad\]; without one it is there at once.
+    /// Depth up to which damping grows from 0 to its full size \[rad\]; `None` for full damping at once.
     pub damping_angle: Option<Number>,
 }
 
-/// Holds the relative angle that there was when a switch began to act.
+/// Holds the relative angle at its value at the moment when a switch began to act.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Lock {
     /// Index into [`Model::switches`](crate::model::Model::switches).
     pub by: usize,
     /// \[N m/rad\]
     pub stiffness: Number,
-    /// \[N m s/rad\]; none is 0.
+    /// \[N m s/rad\]; `None` for 0.
     pub damping: Option<Number>,
 }
 
-/// Drives the coordinate to one that is given: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), kept within ± limit.
+/// Drives a coordinate θ to a given one c: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), limited to ± `limit`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Drive {
-    /// c, constant or a curve of time \[rad\].
+    /// c, a constant or a curve of time \[rad\].
     pub to: FieldComponent,
     /// \[N m/rad\]
     pub stiffness: Number,
-    /// \[N m s/rad\]; none is 0.
+    /// \[N m s/rad\]; `None` for 0.
     pub damping: Option<Number>,
-    /// Largest torque \[N m\]; none is infinite.
+    /// Largest torque \[N m\]; `None` if it is not limited.
     pub limit: Option<Number>,
 }
 
 impl Bending {
-    /// Whether something in it has a direction that is not determined at a flexion of 180°.
+    /// True if a term has a direction that is undefined at a flexion of 180°.
     pub fn directs(&self) -> bool {
         let JointTorque { elastic, stop, .. } = &self.flexion;
         elastic.is_some() || stop.is_some() || self.torsion != JointTorque::default()
@@ -275,15 +277,15 @@ impl Bending {
 /// Flexion and torsion of a ball joint, in space.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bending {
-    /// Which local axis is the long one, of both bodies.
+    /// Index of the local axis that is the long one, in both bodies.
     pub axis: usize,
-    /// The law of the angle between the long axes; without neutral angle and lock, and with a stop at one end.
+    /// The law of the angle between the long axes. It has no neutral angle and no lock, and at most one end.
     pub flexion: JointTorque,
-    /// The law of the turn about them.
+    /// The law of the twist about the long axes.
     pub torsion: JointTorque,
 }
 
-/// The checked form of a joint force: a law of relative rotations, or of one freedom.
+/// The checked form of a joint force: laws of relative rotations, or of one freedom.
 pub(crate) fn joint(
     resolver: &mut Resolver<'_>,
     written: &Written,
@@ -361,7 +363,7 @@ fn about_axes(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [Jo
     about
 }
 
-/// The order of the turns, the usual one where none is written.
+/// The order of the turns; x, y, z if none is written.
 fn order(written: &Written) -> Order {
     let order = written.about.as_ref().and_then(|about| about.order);
     Order(match order {
@@ -374,7 +376,7 @@ fn order(written: &Written) -> Order {
     })
 }
 
-/// The keys of a ball joint in space that are written.
+/// The written keys that only a ball joint in space may have.
 fn of_several_rotations(written: &Written) -> impl Iterator<Item = &'static str> {
     [
         ("about", written.about.is_some()),
@@ -386,7 +388,7 @@ fn of_several_rotations(written: &Written) -> impl Iterator<Item = &'static str>
     .filter_map(|(key, is_there)| is_there.then_some(key))
 }
 
-/// The joint of an element.
+/// The joint that carries an element.
 fn joint_at(resolver: &Resolver<'_>, id: ElementId) -> KinematicJoint {
     resolver.systems[id.system].elements[id.element]
         .joint
@@ -424,7 +426,7 @@ fn law_of_freedom(
     })
 }
 
-/// Which freedom of a joint is meant.
+/// The freedom of a joint that a name refers to.
 pub(crate) fn freedom_named(
     resolver: &Resolver<'_>,
     name: Option<&str>,
@@ -606,7 +608,7 @@ fn torque(resolver: &mut Resolver<'_>, law: Law<'_>) -> JointTorque {
     }
 }
 
-/// What drives a coordinate to one that is given; `None` where it does nothing.
+/// The checked form of a drive; `None` if it has no effect.
 fn drive(
     resolver: &mut Resolver<'_>,
     written: &WrittenDrive,
@@ -628,7 +630,7 @@ fn drive(
     })
 }
 
-/// The ends of a rotation; `None` where they do nothing.
+/// The checked form of the ends of a rotation; `None` if they have no effect.
 fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
     let bound = |quantity: &Option<Quantity>, key| {
         let quantity = quantity.as_ref()?;
@@ -658,7 +660,7 @@ fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures
     })
 }
 
-/// What holds an angle from a switch on; `None` where it does nothing.
+/// The checked form of a lock; `None` if it has no effect.
 fn lock(resolver: &Resolver<'_>, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
     let by = resolver.switch_id(&written.by, at.key("by"));
     let place = at.key("stiffness");

@@ -1,4 +1,4 @@
-//! What can be asked of a law in a joint.
+//! Outputs of a law in a joint.
 
 use super::check::{Freedom, Joint};
 use crate::description::output::Output as Written;
@@ -9,27 +9,28 @@ use crate::model::Quantity;
 use crate::model::resolve::Resolver;
 use serde::Serialize;
 
-/// Of a joint.
+/// A quantity of a law in a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum JointQuantity {
     /// Generalised torque on the child about the relative rotation \[N m\].
     Torque,
     /// Relative angle \[rad\].
     Angle,
-    /// Its rate \[rad/s\].
+    /// Rate of the relative angle \[rad/s\].
     Rate,
-    /// The angle beyond the neutral one that its hysteresis keeps \[rad\]; m where it slides.
+    /// Permanent set of the hysteresis above the neutral angle, relative to it \[rad\]; \[m\] for a freedom that
+    /// slides.
     SetAbove,
-    /// The same before the neutral angle, where it is negative.
+    /// Permanent set below the neutral angle, relative to it; negative.
     SetBelow,
 }
 
-/// Which quantity of a joint force, and about what.
+/// A quantity of a joint force, and the rotation or freedom that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct JointOutput {
-    /// Which of the three relative rotations (1 in the plane); 3 is flexion, 4 torsion. Of a freedom 0.
+    /// Index of the relative rotation, 0 to 2 (1 in the plane); 3 is flexion, 4 torsion. 0 for a freedom.
     pub about: usize,
-    /// What of it.
+    /// The quantity.
     pub what: JointQuantity,
 }
 
@@ -39,7 +40,7 @@ impl OfLaw for JointOutput {
     }
 }
 
-/// Of a relative rotation.
+/// Names and units of the quantities of a relative rotation.
 const OF_JOINT: [(&str, &str, JointQuantity); 5] = [
     ("torque", "N*m", JointQuantity::Torque),
     ("angle", "rad", JointQuantity::Angle),
@@ -48,7 +49,7 @@ const OF_JOINT: [(&str, &str, JointQuantity); 5] = [
     ("permanent_set_below", "rad", JointQuantity::SetBelow),
 ];
 
-/// Of the law of a freedom that turns, and of one that slides.
+/// Names and units of the quantities of the law of a freedom: one that turns, and one that slides.
 const OF_LAW: [[(&str, &str, JointQuantity); 3]; 2] = [
     [
         ("torque", "N*m", JointQuantity::Torque),
@@ -98,27 +99,29 @@ impl Outputs for Freedom {
     }
 }
 
-/// Reports the keys that mean nothing for the scalars of a joint.
+/// Reports keys that have no meaning for the scalars of a joint.
 fn of_joint(resolver: &Resolver<'_>, at: At<'_>) {
     resolver.without(at, &["segment", "ring"], "anything but a belt");
     let keys = ["at", "component", "axes", "relative_to", "on"];
     resolver.without(at, &keys, "the scalars of a joint");
 }
 
-/// Of a joint about one relative rotation.
+/// Expressions of the quantities of one relative rotation.
 #[derive(Clone, Copy)]
 pub struct JointMeasures<'g> {
     /// Generalised torque on the child \[N m\].
     pub torque: Expr<'g>,
     /// Relative angle \[rad\].
     pub angle: Expr<'g>,
-    /// Its rate \[rad/s\].
+    /// Rate of the relative angle \[rad/s\].
     pub rate: Expr<'g>,
-    /// The angles beyond and before the neutral one at which the elastic torque ends that falls from here \[rad\]; 0 without hysteresis.
+    /// Permanent sets above and below the neutral angle, relative to it: where the elastic torque would vanish if it
+    /// fell from here \[rad\]; 0 without hysteresis.
     pub permanent_sets: [Expr<'g>; 2],
 }
 
-/// Of a joint: per relative rotation, then of flexion and of torsion, where a law acts or somebody looks.
+/// Measures of a joint: of the three relative rotations, of flexion and of torsion, for each that has a law or is
+/// observed.
 pub type AboutRotations<'g> = [Option<JointMeasures<'g>>; 5];
 
 impl<'g> Measures<'g> for AboutRotations<'g> {

@@ -1,4 +1,4 @@
-//! The terms of laws in a joint: of each rotation, of flexion and torsion, of a freedom.
+//! The terms of laws in a joint: of each rotation, of flexion and torsion, and of a freedom.
 
 use super::check::{Bending, Drive, Freedom, Joint, JointTorque, Lock, Order, Stop};
 use crate::law::Terms;
@@ -8,7 +8,7 @@ use crate::model::rule::{Rule, Ruled};
 use crate::model::unloading;
 use crate::model::{Body, Dimension, Number, ScaledCurve};
 
-/// What an elastic curve of a joint must do if it has a hysteresis.
+/// The condition on an elastic curve of a joint that has a hysteresis.
 const RETURNS: &str =
     "must be 0 at the neutral angle and push back to it everywhere, to have a hysteresis";
 
@@ -117,7 +117,7 @@ impl Terms for Freedom {
 }
 
 impl JointTorque {
-    /// Leaves out what cannot do anything without what is absent.
+    /// Removes terms that have no effect without another term that is absent.
     fn settle(&mut self) {
         if self.elastic.is_none() {
             self.neutral = None;
@@ -128,13 +128,13 @@ impl JointTorque {
         }
     }
 
-    /// The switch of its lock.
+    /// Index of the switch of the lock, if there is one.
     fn locks_mut(&mut self) -> impl Iterator<Item = &mut usize> {
         self.lock.iter_mut().map(|lock| &mut lock.by)
     }
 }
 
-/// The law about one relative rotation.
+/// Adds the terms of the law about one relative rotation.
 fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut Vec<Field<'a>>) {
     let JointTorque {
         elastic,
@@ -184,13 +184,14 @@ as_written! {
 }
 
 impl List<'_> {
-    /// The law of one coordinate of a joint.
+    /// Adds the conditions of the law of one coordinate of a joint.
     fn law(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
         self.stop(law, below);
         self.both_ways(law, below, curves);
     }
 
-    /// A hysteresis on both sides of 0, whose curves must lie between 0 and each other there, the one of unloading below.
+    /// Adds the conditions of a hysteresis on both sides of 0: on each side, the unloading curve must lie between 0 and
+    /// the loading curve.
     fn both_ways(&mut self, law: &JointTorque, below: &str, curves: Curves<'_>) {
         let (Some(loading), Some(hysteresis)) = (&law.elastic, &law.hysteresis) else {
             return;

@@ -8,14 +8,15 @@ use crate::model::resolve::{NOWHERE, Resolver};
 use crate::model::{Attachment, Body, ElementId, FieldComponent, Number};
 use serde::Serialize;
 
-/// A given force and moment, absolute axes: thrust, actuation, a reaction known from a test.
+/// A given force and moment in absolute axes: thrust, actuation, a reaction known from a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Load {
-    /// Where the force acts.
+    /// The point at which the force acts.
     pub on: Attachment,
-    /// Per absolute axis \[N\], constant or a curve of time.
+    /// Components along the absolute axes \[N\], each a constant or a curve of time.
     pub force: [FieldComponent; 3],
-    /// Per absolute axis \[N m\], constant or a curve of time. In the plane only the second is used.
+    /// Components about the absolute axes \[N m\], each a constant or a curve of time. In the plane only the second is
+    /// used.
     pub moment: [FieldComponent; 3],
 }
 
@@ -56,7 +57,7 @@ pub(crate) fn load(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
     })
 }
 
-/// The element that feels a load: the absolute frame feels nothing.
+/// The element that a load acts on. The absolute frame is refused.
 fn loaded_element(resolver: &Resolver<'_>, path: &str, at: At<'_>) -> Option<ElementId> {
     if path == "frame" {
         resolver.problems.add(at.problem(

@@ -1,4 +1,4 @@
-//! Springs: two ends, a curve of the elongation, a length without force.
+//! Springs: two ends, a curve of the elongation, and a length at which there is no force.
 
 use super::keys::Spring as Written;
 use crate::description::place::At;
@@ -17,7 +17,7 @@ pub struct Spring {
     pub to: Attachment,
     /// Force as a function of the elongation \[m\] → \[N\], positive where it pulls.
     pub elastic: Option<ScaledCurve>,
-    /// Length of no elongation \[m\]; without one, the distance of the attachments at the start.
+    /// Length at which the elongation is 0 \[m\]; `None` for the distance of the attachments at the start.
     pub length: Option<Number>,
     /// Viscous coefficient on the rate of the length \[N s/m\].
     pub damping: Option<Number>,

@@ -1,7 +1,7 @@
-//! Springs between two points, with a damper beside: both pull and push.
+//! Springs between two points, with a damper in parallel: both pull and push.
 //!
-//! With the distance L of the ends, along the unit vector u from one to the other, F = f(L − L₀) + d L̇ acts on the first end along u, and
-//! opposite on the second.
+//! L is the distance of the ends and u the unit vector from the first to the second. F = f(L − L₀) + d L̇ acts on the
+//! first end along u, and the opposite on the second.
 
 use super::check::Spring;
 use super::outputs::SpringMeasures;
@@ -43,7 +43,7 @@ fn apply<'g>(
     let rate = direction.dot(to.velocity - from.velocity);
     let relaxed = match &spring.length {
         Some(length) => number(graph, length),
-        // that at the start of a run
+        // the length at the start of a run
         None => {
             let [from, to] = ends(start);
             length(graph, (to.position - from.position).squared())

@@ -1,4 +1,4 @@
-//! What can be asked of a spring.
+//! Outputs of a spring.
 
 use super::check::Spring;
 use crate::description::output::Output as Written;
@@ -11,14 +11,14 @@ use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use serde::Serialize;
 
-/// Of a spring.
+/// A quantity of a spring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum SpringQuantity {
     /// Force, positive where it pulls \[N\].
     Force,
     /// Distance of the attachments \[m\].
     Length,
-    /// Length less that of no elongation \[m\].
+    /// Length less the length at which the elongation is 0 \[m\].
     Elongation,
     /// Rate of the length \[m/s\].
     Rate,
@@ -57,16 +57,16 @@ impl Outputs for Spring {
     }
 }
 
-/// Of a spring.
+/// Expressions of the quantities of a spring.
 #[derive(Clone, Copy)]
 pub struct SpringMeasures<'g> {
-    /// The force on the body of its end `from` \[N\].
+    /// The force on the body of the end `from` \[N\].
     pub on_first: Vec3<'g>,
     /// Force, positive where it pulls \[N\].
     pub force: Expr<'g>,
     /// Distance of the attachments \[m\].
     pub length: Expr<'g>,
-    /// What it is longer than without force \[m\].
+    /// Length less the length at which the elongation is 0 \[m\].
     pub elongation: Expr<'g>,
     /// Rate of the length \[m/s\].
     pub rate: Expr<'g>,

@@ -1,4 +1,5 @@
-//! User forces: what the function looks at and acts on, what it is given, and the function itself.
+//! User forces: the points, bodies and so on that the function reads and acts on, its other arguments, and the function
+//! itself.
 
 use crate::description::curve::{Function, ScaledCurve as WrittenScaled};
 use crate::description::load::{beside, shown};
@@ -23,60 +24,62 @@ use crate::model::{
 use serde::Serialize;
 use std::path::{Component, Path, PathBuf};
 
-/// Most entries of one kind.
+/// Largest number of ports of one kind.
 const MAX_PORTS: usize = 100;
 
 /// A force computed by a Rust function of the user's.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct User {
-    /// What is called.
+    /// The function that is called.
     pub function: UserFunction,
-    /// Whether its vectors are those of the plane or of space, whatever the motion is.
+    /// The dimension of the function's vectors, which may differ from that of the motion.
     pub dimension: Dimension,
-    /// The longest step \[s\], positive; `None` is the time between samples.
+    /// The longest step \[s\], positive; `None` for the time between samples.
     pub scale: Option<f64>,
-    /// Points: position and velocity in, force out.
+    /// Points: the function gets position and velocity, and returns a force.
     pub points: Vec<Port<Attachment>>,
-    /// Elements: orientation and angular velocity in, moment out.
+    /// Elements: the function gets orientation and angular velocity, and returns a moment.
     pub bodies: Vec<Port<ElementId>>,
-    /// Lines: length and its rate in, tension out.
+    /// Lines: the function gets the length and its rate, and returns a tension.
     pub lines: Vec<Port<UserLine>>,
-    /// Joints, by the element that they carry: relative angles and rates in, torques out.
+    /// Joints, each given by the element that it carries: the function gets relative angles and rates, and returns
+    /// torques.
     pub joints: Vec<Port<ElementId>>,
-    /// Freedoms of joints: coordinate and rate in, torque or force along it out.
+    /// Freedoms of joints: the function gets coordinate and rate, and returns a torque or force along the coordinate.
     pub freedoms: Vec<Port<UserFreedom>>,
-    /// State variables: value in, rate out.
+    /// State variables: the function gets the value, and returns its rate.
     pub states: Vec<Port<UserState>>,
 }
 
-/// A function, and what it is given whatever the motion.
+/// A function, and those of its arguments that do not depend on the motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserFunction {
-    /// Its name in its source; its path (`crate::aero::drag`) where there is none; empty where it is left out.
+    /// Name of the function in its source; its path (`crate::aero::drag`) if there is no source; empty if the function
+    /// is left out.
     pub name: String,
-    /// The text with the function; `None` where the crate that includes the module has it.
+    /// The text with the function; `None` if the crate that includes the generated module has the function.
     pub source: Option<UserSource>,
-    /// Numbers and curves of time.
+    /// Parameters: numbers and curves of time.
     pub parameters: Vec<Port<UserParameter>>,
-    /// Curves to look up; `None` where the curve is zero everywhere.
+    /// Curves that the function looks up; `None` for a curve that is zero everywhere.
     pub curves: Vec<Port<Option<ScaledCurve>>>,
 }
 
 /// Rust text of the user's.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct UserSource {
-    /// Path of the file, relative to that of the model.
+    /// Path of the file, relative to the file of the model.
     pub name: String,
-    /// Its text, lines ended by `\n`.
+    /// The text, with lines that end in `\n`.
     pub text: String,
 }
 
-/// Something under a name that the user gave it; the name, dashes as underscores, is an identifier.
+/// A value with a name that the user gave it. With underscores in place of dashes, the name is an identifier.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Port<T> {
-    /// As in the YAML.
+    /// The name as in the YAML.
     pub name: String,
-    /// What it is.
+    /// The value.
     pub value: T,
 }
 
@@ -94,9 +97,9 @@ pub struct UserLine {
 pub struct UserFreedom {
     /// The element that the joint carries.
     pub element: ElementId,
-    /// Index into its freedoms.
+    /// Index of the freedom among those of the joint.
     pub freedom: usize,
-    /// Whether it turns; else it slides.
+    /// True if the freedom turns, false if it slides.
     pub turns: bool,
 }
 
@@ -105,7 +108,7 @@ pub struct UserFreedom {
 pub struct UserParameter {
     /// The value.
     pub value: FieldComponent,
-    /// SI unit, "" where the number has none or it is unknown.
+    /// SI unit; "" if the number has none or it is unknown.
     pub unit: String,
 }
 
@@ -114,15 +117,16 @@ pub struct UserParameter {
 pub struct UserState {
     /// Value at the start of a run.
     pub initial: Number,
-    /// SI unit, "" where the number has none.
+    /// SI unit; "" if the number has none.
     pub unit: &'static str,
     /// SI unit of its rate.
     pub rate_unit: &'static str,
 }
 
 impl User {
-    /// Names of what the function returns, in its order: per point a force, per body a moment, per line a tension, per
-    /// joint torques, per freedom an effort, per state a rate; vectors by component, of which those that the plane has not are left out.
+    /// Names of the results of the function, in their order: a force for each point, a moment for each body, a tension
+    /// for each line, torques for each joint, an effort for each freedom, a rate for each state. Vectors have a name
+    /// for each component; components that do not exist in the plane are left out.
     pub fn results(&self) -> Vec<String> {
         let vector: &[&str] = match self.dimension {
             Dimension::Plane => &["_x", "_z"],
@@ -158,7 +162,7 @@ impl User {
         results
     }
 
-    /// Number of things that it acts on.
+    /// Number of points, bodies, lines, joints and so on that the function acts on.
     pub fn ports(&self) -> usize {
         self.points.len()
             + self.bodies.len()
@@ -190,7 +194,7 @@ pub(crate) fn user(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
     Some(user)
 }
 
-/// Reports a file with the functions of two user forces.
+/// Reports a source file that holds another user force's function, too.
 fn check_own_file(resolver: &Resolver<'_>, user: &User, at: At<'_>) {
     let others = resolver
         .forces
@@ -215,10 +219,10 @@ fn check_own_file(resolver: &Resolver<'_>, user: &User, at: At<'_>) {
     }
 }
 
-/// The entries of one kind: name, what is written, where.
+/// The entries of one kind: name, value as written, and place.
 type Listed<'w, T> = Vec<(&'w str, &'w T, At<'w>)>;
 
-/// The entries of a user force whose names can be used.
+/// The entries of a user force that have usable names.
 struct Entries<'w> {
     points: Listed<'w, UserPoint>,
     bodies: Listed<'w, String>,
@@ -231,7 +235,8 @@ struct Entries<'w> {
 }
 
 impl<'w> Entries<'w> {
-    /// Those of a user force. The names of parameters and of curves are apart from all others.
+    /// The entries of a user force. Names of parameters need only differ from each other, and so do names of curves;
+    /// all other names must differ.
     fn of(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Self {
         let mut taken = Vec::new();
         let mut apart = [Vec::new(), Vec::new()];
@@ -304,7 +309,7 @@ impl<'w> Entries<'w> {
             && self.freedoms.is_empty()
     }
 
-    /// The user force with the entries that are right; `None` where its function is wrong.
+    /// The user force with its valid entries; `None` if its function is wrong.
     fn checked(self, resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<User> {
         let points = each(self.points, |_, point, at| user_point(resolver, point, at));
         let bodies = each(self.bodies, |_, path, at| acted_on(resolver, path, at));
@@ -342,7 +347,7 @@ impl<'w> Entries<'w> {
     }
 }
 
-/// The entries of one kind whose names can be used, with their places.
+/// The entries of one kind that have usable names, with their places.
 fn ports<'w, T>(
     resolver: &Resolver<'_>,
     written: &'w Option<Named<T>>,
@@ -372,7 +377,7 @@ fn ports<'w, T>(
     ports
 }
 
-/// The checked forms of the entries that are right.
+/// The checked forms of the valid entries.
 fn each<T, U>(
     listed: Listed<'_, T>,
     mut check: impl FnMut(&str, &T, At<'_>) -> Option<U>,
@@ -389,7 +394,7 @@ fn each<T, U>(
     checked
 }
 
-/// A point at which the function acts.
+/// The checked form of a point at which the function acts.
 fn user_point(resolver: &Resolver<'_>, written: &UserPoint, at: At<'_>) -> Option<Attachment> {
     let on = resolver.body(&written.on, at.key("on"))?;
     let position = match (&written.at, on) {
@@ -406,7 +411,7 @@ fn user_point(resolver: &Resolver<'_>, written: &UserPoint, at: At<'_>) -> Optio
     Some(Attachment { on, at: position })
 }
 
-/// A line: it runs between two bodies.
+/// The checked form of a line, which must run between two bodies.
 fn user_line(resolver: &Resolver<'_>, written: &WrittenLine, at: At<'_>) -> Option<UserLine> {
     let from = resolver.end(&written.from, at.key("from"));
     let to = resolver.end(&written.to, at.key("to"));
@@ -420,7 +425,7 @@ fn user_line(resolver: &Resolver<'_>, written: &WrittenLine, at: At<'_>) -> Opti
     Some(UserLine { from, to })
 }
 
-/// An element: the absolute frame neither turns nor has a joint.
+/// The element that the function acts on. The absolute frame is refused, as it neither turns nor has a joint.
 fn acted_on(resolver: &Resolver<'_>, path: &str, at: At<'_>) -> Option<ElementId> {
     if path == "frame" {
         resolver.problems.add(at.problem(
@@ -432,7 +437,7 @@ fn acted_on(resolver: &Resolver<'_>, path: &str, at: At<'_>) -> Option<ElementId
     resolver.element_id(path, at)
 }
 
-/// A freedom of a joint with coordinates of its own.
+/// The checked form of a freedom of a joint with coordinates of its own.
 fn user_freedom(
     resolver: &Resolver<'_>,
     written: &WrittenFreedom,
@@ -459,7 +464,7 @@ fn user_freedom(
     })
 }
 
-/// A state, its units, and those of its rate.
+/// The checked form of a state: its initial value, its unit, and that of its rate.
 fn user_state(resolver: &Resolver<'_>, written: &WrittenState, at: At<'_>) -> Option<UserState> {
     let place = at.key("initial");
     let (initial, measure) = resolver.measured(&written.initial, place)?;
@@ -474,7 +479,7 @@ fn user_state(resolver: &Resolver<'_>, written: &WrittenState, at: At<'_>) -> Op
     })
 }
 
-/// A parameter, and its unit where that is known.
+/// The checked form of a parameter, with its unit if that is known.
 fn user_parameter(
     resolver: &mut Resolver<'_>,
     written: &Function,
@@ -513,7 +518,7 @@ fn user_parameter(
     Some(UserParameter { value, unit })
 }
 
-/// The function's name and its source, or its path.
+/// The name of the function and its source; or the path of the function, without a source.
 fn user_function(
     resolver: &Resolver<'_>,
     written: &Written,
@@ -546,10 +551,10 @@ fn user_function(
     let path = beside(&at.source.name, file);
     let model = resolver.loaded.paths.first()?;
     let directory = model.parent().unwrap_or(Path::new(""));
-    // the same from wherever the model is read
+    // a path that does not depend on where the model is read from
     let source = UserSource {
         name: shown(&relative(&path, directory)),
-        // a text that could not be read is reported where it was; one that is to be written is not missed
+        // an unreadable text has been reported when it was read; a text that is still to be written may be missing
         text: resolver
             .loaded
             .sources
@@ -560,7 +565,7 @@ fn user_function(
     Some((function.to_owned(), Some(source)))
 }
 
-/// A path that can be called from wherever the module is.
+/// The path of the function, checked: it must be valid wherever the generated module is.
 fn user_path(
     resolver: &Resolver<'_>,
     function: &str,
@@ -593,7 +598,7 @@ fn user_path(
     Some(function.to_owned())
 }
 
-/// Reports what is wrong with the file of a function.
+/// Reports problems in the source file of a function.
 fn check_user_source(resolver: &Resolver<'_>, written: &Written, user: &User, at: At<'_>) {
     let Some(file) = &written.source else { return };
     let path = beside(&at.source.name, file);
@@ -649,7 +654,7 @@ fn check_user_source(resolver: &Resolver<'_>, written: &Written, user: &User, at
     }
 }
 
-/// A path as seen from a directory; both are relative to the same place.
+/// A path relative to a directory. Both must be absolute, or relative to the same directory.
 fn relative(path: &Path, directory: &Path) -> PathBuf {
     if path.is_absolute() != directory.is_absolute() {
         return path.to_owned();

@@ -1,6 +1,6 @@
-//! A force of the user's own: one call with everything that the function wants to know, as scalars; the results applied.
+//! A force of the user's own: one call of the function, with all its arguments as scalars; its results are applied.
 //!
-//! | | the function is given | and returns | which acts |
+//! | | arguments of the function | result | action |
 //! |---|---|---|---|
 //! | point | position, velocity | force F | F on the body at the point |
 //! | body | orientation, ω | moment M | M on the body |
@@ -9,7 +9,8 @@
 //! | freedom of a joint | q, q̇ | torque or force Q | Q along the coordinate |
 //! | state | z | ż | |
 //!
-//! Before the switch that the force waits for, and after the one that it ends with, nothing acts; states go on.
+//! Before the switch that the force waits for, and after the switch that ends it, nothing acts; but the states continue
+//! to change.
 //!
 //! Vectors are in absolute axes; n_i are the directions of [joints](crate::law::joint::force). Power: F·v, M·ω, −T L̇, Q·θ̇, Q q̇.
 
@@ -81,12 +82,12 @@ fn apply<'g>(
     }
 }
 
-/// The components that the vectors of a function have.
+/// Indices of the components that the vectors of a function have.
 #[derive(Clone, Copy)]
 struct Axes {
-    /// Of a position, a velocity, a force.
+    /// Components of a position, a velocity, a force.
     vectors: &'static [usize],
-    /// Of an angular velocity, a moment.
+    /// Components of an angular velocity, a moment.
     rotations: &'static [usize],
 }
 
@@ -105,12 +106,13 @@ impl Axes {
     }
 }
 
-/// What the function looks at and acts on, in the order of the ports. A body is found again by its element.
+/// The quantities that the function reads, in the order of the ports. Bodies are not stored here; they are found by
+/// their elements.
 struct Seen<'g> {
     points: Vec<Point<'g>>,
     lines: Vec<Line<'g>>,
     joints: Vec<JointMotion<'g>>,
-    /// Coordinate and rate.
+    /// Coordinate and rate of each freedom.
     freedoms: Vec<(Expr<'g>, Expr<'g>)>,
 }
 
@@ -118,7 +120,7 @@ struct Seen<'g> {
 struct Line<'g> {
     from: Point<'g>,
     to: Point<'g>,
-    /// The unit vector from one to the other.
+    /// The unit vector from the first point to the second.
     direction: Vec3<'g>,
     length: Expr<'g>,
     rate: Expr<'g>,
@@ -132,7 +134,7 @@ struct JointMotion<'g> {
 }
 
 impl<'g> Seen<'g> {
-    /// What the function looks at; adds it to the arguments, kind after kind.
+    /// The quantities that the function reads. Adds them to the arguments, one kind after the other.
     fn of(
         user: &User,
         setting: Setting<'_, 'g>,
@@ -211,12 +213,12 @@ impl<'g> Seen<'g> {
     }
 }
 
-/// The orientation of an element: an angle in the plane, else the nine entries of its rotation, row by row.
+/// The orientation of an element: in the plane an angle, in space the nine entries of its rotation matrix, row by row.
 fn orientation<'g>(user: &User, setting: Setting<'_, 'g>, element: ElementId) -> Vec<Expr<'g>> {
     let body = setting.motion.element(element);
     match (user.dimension, setting.model.dimension) {
         (Dimension::Plane, Dimension::Plane) => vec![body.angle],
-        // of a planar motion in space: x of the element is (cos φ, 0, −sin φ)
+        // for a planar motion in space: the axis x of the element is (cos φ, 0, −sin φ)
         (Dimension::Plane, Dimension::Space) => {
             let forward = body.rotation.column(0);
             vec![(-forward.0[2]).atan2(forward.0[0])]
@@ -272,7 +274,7 @@ impl<'g> JointMotion<'g> {
     }
 }
 
-/// The arguments that do not depend on the motion: parameters, and what scales the curves.
+/// The arguments that do not depend on the motion: parameters, and the factors of the curves.
 fn function_arguments<'g>(user: &User, graph: &'g Graph) -> Vec<Expr<'g>> {
     let mut arguments = Vec::new();
     for port in &user.function.parameters {
@@ -290,20 +292,21 @@ fn function_arguments<'g>(user: &User, graph: &'g Graph) -> Vec<Expr<'g>> {
     arguments
 }
 
-/// What the function returns, in the order of the ports; but for the rates of states, 0 while the force does not act.
+/// The results of the function, in the order of the ports. While the force does not act, all but the rates of states
+/// are 0.
 struct Results<'g> {
     forces: Vec<Vec3<'g>>,
     moments: Vec<Vec3<'g>>,
     tensions: Vec<Expr<'g>>,
-    /// By joint, of its relative rotations.
+    /// For each joint, the torques about its relative rotations.
     torques: Vec<Vec<Expr<'g>>>,
     efforts: Vec<Expr<'g>>,
-    /// Of the states.
+    /// Rates of the states.
     rates: Vec<Expr<'g>>,
 }
 
 impl<'g> Results<'g> {
-    /// The call, part by part.
+    /// Calls the function, and groups its results by kind.
     fn of(
         user: &User,
         setting: Setting<'_, 'g>,
@@ -355,7 +358,7 @@ impl<'g> Results<'g> {
         }
     }
 
-    /// Applies them to the bodies and joints, and adds their powers.
+    /// Applies the results to the bodies and joints, and adds their powers.
     fn act(
         &self,
         user: &User,
@@ -411,7 +414,7 @@ impl<'g> Results<'g> {
     }
 }
 
-/// Of a function that is left out: nothing acts, and its states stay.
+/// The measures of a function that is left out: all forces are 0, and its states are constant.
 fn nothing<'g>(graph: &'g Graph, user: &User) -> UserMeasures<'g> {
     let zero = graph.constant(0.0);
     let none = LineMeasures {

@@ -1,4 +1,4 @@
-//! Outputs of a user force: of which of its ports, and what.
+//! Outputs of a user force: a quantity of one of its ports.
 
 use super::check::{Port, User};
 use crate::description::output::Output as Written;
@@ -12,7 +12,7 @@ use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
 use serde::Serialize;
 
-/// Of a user force; indices are into its points, bodies, lines, joints, states.
+/// A quantity of a user force. Indices are those of the force's points, bodies, lines, joints, freedoms, states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum UserQuantity {
     /// Force on a point \[N\].
@@ -23,19 +23,19 @@ pub enum UserQuantity {
     Tension(usize),
     /// Length of a line \[m\].
     Length(usize),
-    /// Its rate \[m/s\].
+    /// Rate of the length of a line \[m/s\].
     LengthRate(usize),
-    /// Torque in a joint about one relative rotation (1 in the plane) \[N m\].
+    /// Torque in a joint about one relative rotation (0 to 2; 1 in the plane) \[N m\].
     Torque(usize, usize),
-    /// Relative angle \[rad\].
+    /// Relative angle in a joint \[rad\].
     Angle(usize, usize),
-    /// Its rate \[rad/s\].
+    /// Rate of a relative angle in a joint \[rad/s\].
     AngleRate(usize, usize),
     /// Torque or force along a freedom of a joint \[N m\] or \[N\].
     Effort(usize),
     /// Value of a state.
     State(usize),
-    /// Its rate.
+    /// Rate of a state.
     StateRate(usize),
 }
 
@@ -70,7 +70,7 @@ impl OfLaw for UserQuantity {
     }
 }
 
-/// What can be asked of a kind of port: name, unit, which.
+/// The quantities of a kind of port: name, unit, quantity.
 type Table = [(&'static str, &'static str, Asked)];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -118,7 +118,7 @@ impl Outputs for User {
     }
 }
 
-/// What an output asks of a user force, and its unit.
+/// The quantity that an output asks of a user force, and its unit.
 fn of_user(
     resolver: &Resolver<'_>,
     user: &User,
@@ -166,7 +166,7 @@ fn of_user(
     Some((Quantity::OfForce { force, what }, unit))
 }
 
-/// The only port that has what is asked for.
+/// The only port that has the quantity asked for; reports if there are several, or none.
 fn only_port(
     resolver: &Resolver<'_>,
     written: &Written,
@@ -278,15 +278,15 @@ fn user_quantity(
     })
 }
 
-/// What can be asked of a user force: by port.
+/// Expressions of the quantities of a user force, by port.
 pub struct UserMeasures<'g> {
     /// Force on each point \[N\].
     pub forces: Vec<Vec3<'g>>,
     /// Moment on each body \[N m\].
     pub moments: Vec<Vec3<'g>>,
-    /// Of each line.
+    /// The measures of each line.
     pub lines: Vec<LineMeasures<'g>>,
-    /// Of each joint, about each relative rotation; in the plane the second alone.
+    /// The measures of each joint, about each relative rotation; in the plane only the second is there.
     pub joints: Vec<[Option<JointMeasures<'g>>; 3]>,
     /// Torque or force along each freedom \[N m\] or \[N\].
     pub efforts: Vec<Expr<'g>>,
@@ -294,14 +294,14 @@ pub struct UserMeasures<'g> {
     pub states: Vec<(Expr<'g>, Expr<'g>)>,
 }
 
-/// Of a line.
+/// Expressions of the quantities of a line.
 #[derive(Clone, Copy)]
 pub struct LineMeasures<'g> {
     /// Tension \[N\].
     pub tension: Expr<'g>,
     /// Length \[m\].
     pub length: Expr<'g>,
-    /// Its rate \[m/s\].
+    /// Rate of the length \[m/s\].
     pub rate: Expr<'g>,
 }
 

@@ -70,7 +70,7 @@ impl Terms for User {
         points.chain(ends).collect()
     }
 
-    /// Its function goes on with vectors of space.
+    /// The function keeps its vectors in space.
     fn flatten(&mut self) -> bool {
         for point in &mut self.points {
             point.value.at[1] = Number::ZERO;
@@ -83,7 +83,7 @@ impl Terms for User {
     }
 }
 
-/// The function of a user force, with what it is given whatever the motion.
+/// The function of a user force with its arguments that do not depend on the motion, as a part that may be left out.
 impl Part for UserFunction {
     fn is_in(&self) -> bool {
         !self.name.is_empty()
@@ -127,7 +127,7 @@ impl Part for UserFunction {
     }
 }
 
-/// Numbers of a port of a user force, where they stand in the YAML.
+/// The numbers of a port of a user force, with their places in the YAML.
 fn beside<'a>(
     list: &'a str,
     name: &'a str,

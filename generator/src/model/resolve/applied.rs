@@ -1,6 +1,7 @@
-//! Forces as written to checked ones, and what several laws have: friction and its bristles, damping that fades in.
+//! Turns written forces into checked ones; also the parts that several laws have: friction, its bristles, and damping
+//! that fades in.
 //!
-//! A coefficient that is 0 and a curve that is 0 everywhere are as if they had not been written.
+//! A coefficient that is 0, or a curve that is 0 everywhere, counts as not written.
 
 use super::Resolver;
 use super::name::Style;
@@ -12,7 +13,7 @@ use crate::diagnostic::quoted;
 use crate::law::{Header, Registered, Written};
 use crate::model::{Bristle, Force, Friction, Number};
 
-/// Enters a force: its checked form, or that it is left out.
+/// Enters a force: its checked form, or the fact that it is switched off.
 pub(super) fn force(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) {
     let Header {
         name,
@@ -47,7 +48,7 @@ pub(super) fn force(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) 
     }
 }
 
-/// Reports a force of a name that another of the same law has.
+/// Reports a force with the same name as another of the same law.
 fn check_twice(resolver: &Resolver<'_>, name: &str, law: &Registered, place: At<'_>) {
     let same = resolver.forces.iter().filter(|f| f.kind.key() == law.key);
     let off = resolver.disabled.iter().filter(|(key, _)| *key == law.key);
@@ -68,7 +69,7 @@ fn check_twice(resolver: &Resolver<'_>, name: &str, law: &Registered, place: At<
 }
 
 impl Resolver<'_> {
-    /// Coulomb friction; `None` where its limit is 0 or left out.
+    /// Coulomb friction; `None` if its limit is 0 or missing.
     pub fn friction(
         &self,
         limit: Option<&WrittenQuantity>,
@@ -93,9 +94,10 @@ impl Resolver<'_> {
         Some(Friction { limit, tolerance })
     }
 
-    /// The bristles by which friction holds; `None` where there is no friction or no displacement.
+    /// The bristle by which friction holds; `None` if there is no friction or no displacement.
     ///
-    /// `limit` as written, and whether there is friction; the displacement, and what it is.
+    /// `limit` is the friction limit as written, `rubs` is true if there is friction; `displacement` is the value of
+    /// the key `friction_displacement`, a quantity `expected`.
     pub fn bristle(
         &self,
         (limit, rubs): (Option<&WrittenQuantity>, bool),
@@ -115,9 +117,10 @@ impl Resolver<'_> {
             .map(|displacement| Bristle { displacement })
     }
 
-    /// The abscissa up to which damping fades in; `None` where it is 0 or nothing is damped.
+    /// The abscissa up to which damping fades in; `None` if it is 0 or there is no damping.
     ///
-    /// `damping` as written, and whether it is there; the key as written, with its place; what it is, and its default.
+    /// `damping` is the coefficient as written, and `damps` is true if it is not 0; `written` is the value of the key
+    /// at `at`, a quantity `expected`, and `default` its default.
     pub fn fade(
         &self,
         (damping, damps): (Option<&WrittenQuantity>, bool),

@@ -1,14 +1,15 @@
 //! Channels of a test: outputs in the axes and signs of SAE J211-1 and ISO 6487.
 //!
-//! This is the one place that knows these signs. An output whose channel code says a direction, or that the criteria name, is a channel; its
-//! column is then that of the standard, in every table, file and verdict.
+//! Only this module knows these signs. An output becomes a channel if its channel code gives a direction, or if the
+//! criteria name it. Its column then follows the standard in every table, file and verdict.
 //!
-//! - **Axes** \[SAE J1733, J211-1\]: of a body that stands upright, x points forward, y from left to right, z down. They turn with each part. A
-//!   sensor reads along the axes of the part that it is in.
-//! - **Loads** \[SAE J211: of a dummy that is sectioned below the load cell, positive loads are applied to its bottom surface\]: the wrench of
-//!   the lower part on the upper one, of a body that stands. So tension of neck and femur is positive along z, and the moment of a chin that is
-//!   pressed to the sternum is positive about y.
-//! - **Which side of a joint is the upper one** follows from the centres of gravity: it does not matter which element carries the other.
+//! - **Axes** \[SAE J1733, J211-1\]: for a body that stands upright, x points forward, y from left to right, z down.
+//!   The axes turn with each part. A sensor reads along the axes of the part that contains it.
+//! - **Loads** \[SAE J211: of a dummy that is sectioned below the load cell, positive loads are applied to its bottom
+//!   surface\]: the wrench of the lower part on the upper part of a body that stands upright. So tension of neck and
+//!   femur is positive along z, and the moment that presses the chin to the sternum is positive about y.
+//! - **Upper and lower part** of a joint follow from the centres of gravity: it does not matter which element carries
+//!   the other.
 
 use super::Resolver;
 use crate::description::element::{Anatomy as Written, Direction, Neck};
@@ -21,19 +22,19 @@ use crate::model::{
     PointQuantity, Projection, Quantity, RotationQuantity,
 };
 
-/// Centres of gravity that differ in height by less do not say which part is the upper one \[m\].
+/// Smallest difference in height of two centres of gravity that decides which part is the upper one \[m\].
 const LEVEL: f64 = 1e-6;
-/// The cosine of the largest angle between the axis of a freedom and the direction of its code: 2.5°.
+/// Cosine of the largest angle allowed between the axis of a freedom and the direction in its code: 2.5°.
 const ALONG: f64 = 0.999;
 
-/// Which axes of a body are those of the standard.
+/// The local axes of a body that point forward and up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Anatomy {
     forward: [i8; 3],
     up: [i8; 3],
 }
 
-/// x forward, z up: y is to the left.
+/// x forward, z up; so y points to the left.
 impl Default for Anatomy {
     fn default() -> Self {
         Anatomy {
@@ -44,7 +45,8 @@ impl Default for Anatomy {
 }
 
 impl Anatomy {
-    /// As the text says it; `None` if its two directions are not at right angles, or not in the plane.
+    /// The anatomy as written; `None` if its two directions are not perpendicular, or in a planar model not in the
+    /// plane.
     pub(crate) fn of(written: &Written, planar: bool) -> Option<Self> {
         let usual = Anatomy::default();
         let anatomy = Anatomy {
@@ -56,13 +58,13 @@ impl Anatomy {
         (across && (in_plane || !planar)).then_some(anatomy)
     }
 
-    /// From left to right: forward × up.
+    /// The direction from left to right: forward × up.
     fn right(&self) -> [i8; 3] {
         let ([a, b, c], [d, e, f]) = (self.forward, self.up);
         [b * f - c * e, c * d - a * f, a * e - b * d]
     }
 
-    /// The local axis of a component of the standard, and whether it points the other way.
+    /// The local axis of a component of the standard, and true if it points in the opposite direction.
     fn axis(&self, component: Component) -> Option<(usize, bool)> {
         let direction = match component {
             Component::X => self.forward,
@@ -75,14 +77,14 @@ impl Anatomy {
     }
 }
 
-/// What an element is of a body, as far as the text says it.
+/// The part of a human body that an element represents, as far as the text says it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct BodyPart {
     pub anatomy: Anatomy,
     pub neck: Option<Neck>,
 }
 
-/// The direction that a channel code says: its 15th character.
+/// The direction that a channel code gives in its 15th character.
 pub(super) fn direction(code: &str) -> Option<Component> {
     match code.as_bytes().get(14)? {
         b'X' => Some(Component::X),
@@ -93,12 +95,12 @@ pub(super) fn direction(code: &str) -> Option<Component> {
     }
 }
 
-/// Whether a channel code is that of the load cell at the upper neck.
+/// True if a channel code is that of the load cell at the upper neck.
 pub(super) fn is_upper_neck(code: &str) -> bool {
     code.get(2..8) == Some("NECKUP")
 }
 
-/// An output with a code, along the axes of its own body if it is a sensor and the text does not say along which.
+/// An output with a channel code. If it is a sensor and the text names no axes, it gets the axes of its own body.
 pub(super) fn with_axes(resolver: &Resolver<'_>, written: &WrittenOutput) -> WrittenOutput {
     let sensors = [
         "acceleration",
@@ -119,22 +121,22 @@ pub(super) fn with_axes(resolver: &Resolver<'_>, written: &WrittenOutput) -> Wri
     with
 }
 
-/// What a channel is asked to be.
+/// The properties that a channel must have.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'a> {
     /// The direction of the standard.
     pub direction: Component,
-    /// Whether it is the load cell at the upper neck.
+    /// True for the load cell at the upper neck.
     pub upper_neck: bool,
-    /// Whether the text says along whose axes.
+    /// True if the text names a body for the axes.
     pub says_axes: bool,
-    /// Who asks for it, in messages: `the channel code 11NECKUP00H3FOZA`.
+    /// The origin of this demand, for messages: `the channel code 11NECKUP00H3FOZA`.
     pub by: &'a str,
-    /// Where.
+    /// Its place in the text.
     pub at: At<'a>,
 }
 
-/// A quantity as a channel of the standard; what cannot be one is reported.
+/// A quantity as a channel of the standard; reports a quantity that cannot be one.
 pub(super) fn channel(
     resolver: &Resolver<'_>,
     mut quantity: Quantity,
@@ -221,7 +223,7 @@ fn anatomy(resolver: &Resolver<'_>, body: Body) -> Anatomy {
     }
 }
 
-/// Reports a component that is not the direction of the code.
+/// The component, if it is the wanted direction; otherwise reports it.
 fn projection_of(
     resolver: &Resolver<'_>,
     component: Component,
@@ -248,7 +250,7 @@ fn projection_of(
     None
 }
 
-/// Turns a projection into that of the standard; returns whether it is the opposite.
+/// Replaces a projection by that of the standard. Returns true if the quantity then has the opposite sign.
 fn project(
     resolver: &Resolver<'_>,
     projection: &mut Projection,
@@ -262,7 +264,7 @@ fn project(
     Some(back)
 }
 
-/// Reports a sensor in an element that reads along the axes of another body.
+/// Reports a sensor in an element whose axes are those of another body.
 fn sits_in(
     resolver: &Resolver<'_>,
     is_sensor: bool,
@@ -273,7 +275,7 @@ fn sits_in(
     let Body::Element(id) = body else {
         return Some(());
     };
-    // in the plane all axes y are one
+    // in the plane, the axes y of all bodies coincide
     let across = resolver.planar && projection.component == Component::Y;
     let whole = projection.component == Component::Resultant;
     if !is_sensor || across || whole || projection.axes == body {
@@ -290,7 +292,7 @@ fn sits_in(
     None
 }
 
-/// The wrench in a joint: of the lower part on the upper one.
+/// The load in a joint as a channel: the wrench of the lower part on the upper part.
 fn load(
     resolver: &Resolver<'_>,
     (element, what, on_carrier, mut projection): (ElementId, JointLoadQuantity, bool, Projection),
@@ -330,7 +332,7 @@ fn load(
         }
     }
     let back = project(resolver, &mut projection, wanted)?;
-    // on the carrier is the opposite of on the carried
+    // the load on the carrier is the opposite of that on the carried element
     let on_upper = on_carrier == upper_is_carrier;
     let reversed = wanted.direction != Component::Resultant && (back == on_upper);
     let quantity = Quantity::JointLoad {
@@ -342,7 +344,7 @@ fn load(
     Some((quantity, Channel { reversed, remark }))
 }
 
-/// What is to be known of the upper neck of a head; a dummy that has no such load cell is reported.
+/// The remark on the upper neck of a head; reports a dummy that has no such load cell.
 fn neck(resolver: &Resolver<'_>, head: Body, wanted: Wanted<'_>) -> Option<Option<&'static str>> {
     let Body::Element(id) = head else {
         return Some(None);
@@ -375,8 +377,8 @@ fn carrier(resolver: &Resolver<'_>, id: ElementId) -> Body {
     }
 }
 
-/// Whether the element that a joint carries is the upper one of the two, of a body that stands: its centre of gravity is higher above the joint than that of
-/// its carrier.
+/// True if the element that a joint carries is the upper one of the two parts, for a body that stands upright: its
+/// centre of gravity is higher above the joint than that of its carrier.
 fn carried_is_upper(resolver: &Resolver<'_>, id: ElementId, wanted: Wanted<'_>) -> Option<bool> {
     let value = |number: &Number| number.value(&resolver.defaults);
     let height = |id: ElementId, from: Option<&[Number; 3]>| -> f64 {
@@ -411,7 +413,7 @@ fn carried_is_upper(resolver: &Resolver<'_>, id: ElementId, wanted: Wanted<'_>) 
     Some(above > 0.0)
 }
 
-/// Whether the coordinate of a freedom is the opposite of that about or along an axis of the standard.
+/// True if the coordinate of a freedom has the opposite sign of that about or along an axis of the standard.
 fn of_freedom(
     resolver: &Resolver<'_>,
     id: ElementId,
@@ -437,7 +439,7 @@ fn of_freedom(
     Some(along < 0.0)
 }
 
-/// Whether a quantity of a law is the opposite of that of the standard. What has no direction is what it is.
+/// True if a quantity of a law has the opposite sign of that of the standard. False for a quantity without direction.
 fn of_law(resolver: &Resolver<'_>, force: usize, what: &Asked, wanted: Wanted<'_>) -> Option<bool> {
     let Asked::Joint(JointOutput { about, what: asked }) = what else {
         let Some(component) = what.component() else {

@@ -1,4 +1,5 @@
-//! By what a run is judged: the outputs of the places of a dummy. Whether there is such a regulation and such a dummy, whoever judges knows.
+//! The criteria by which a run is judged: the outputs at the places of a dummy. This module does not know which
+//! regulations and dummies exist.
 
 use super::Resolver;
 use super::channel::{self, Wanted};
@@ -10,13 +11,13 @@ use crate::description::short::Each;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Component, Criteria};
 
-/// Places that may be an element, whose acceleration is measured at its centre of gravity.
+/// Places for which an element may be named; its acceleration is measured at its centre of gravity.
 const ELEMENTS: [&str; 2] = ["head", "chest"];
-/// The place that is a head, whose joint is the upper neck.
+/// The place for which the element of the head is named, whose joint is the upper neck.
 const NECK: &str = "neck";
 
-/// The criteria; outputs of elements that they need are added to those of the model, headings to `headings`. An output that they name is a
-/// channel of the standard from then on.
+/// The checked criteria. If they name elements, outputs at these are added to those of the model, and their headings to
+/// `headings`. Every output that they name becomes a channel of the standard.
 pub(super) fn criteria(
     resolver: &mut Resolver<'_>,
     written: Option<&Written>,
@@ -48,7 +49,7 @@ pub(super) fn criteria(
     })
 }
 
-/// Reports a place that is neither an output nor an element.
+/// Reports a place that names neither an output nor an element.
 fn no_output(resolver: &Resolver<'_>, text: &str, key: &str, at: At<'_>) {
     if key == NECK {
         resolver.problems.add(at.problem(
@@ -71,7 +72,7 @@ fn no_output(resolver: &Resolver<'_>, text: &str, key: &str, at: At<'_>) {
     ));
 }
 
-/// The direction of the standard in which a place measures.
+/// The direction of the standard along which a place measures.
 fn direction(key: &str) -> Component {
     match key {
         "head" | "chest" => Component::Resultant,
@@ -79,13 +80,13 @@ fn direction(key: &str) -> Component {
         _ => match key.bytes().next_back() {
             Some(b'y') => Component::Y,
             Some(b'z') => Component::Z,
-            // excursions, deflections and pulses, too
+            // also for excursions, deflections and pulses
             _ => Component::X,
         },
     }
 }
 
-/// Makes an output that the criteria name a channel of the standard, if its code has not made it one.
+/// Makes an output that the criteria name a channel of the standard, unless its code has done so.
 fn name_channel(resolver: &mut Resolver<'_>, index: usize, key: &str, at: At<'_>) {
     let output = &resolver.outputs[index];
     let (direction, by) = (direction(key), format!("the place {key}"));
@@ -100,7 +101,7 @@ fn name_channel(resolver: &mut Resolver<'_>, index: usize, key: &str, at: At<'_>
         ));
         return;
     }
-    // whether the length of a vector or one component is wanted, those say who judge
+    // the judging program reports an output that is a vector's magnitude in place of a component, or the reverse
     let whole = direction == Component::Resultant;
     if output.channel.is_some() || whole != output.quantity.is_resultant() {
         return;
@@ -112,7 +113,7 @@ fn name_channel(resolver: &mut Resolver<'_>, index: usize, key: &str, at: At<'_>
         by: &by,
         at,
     };
-    // where an excursion or a pulse is read is the choice of the user
+    // the user chooses the place and axes of an excursion or a pulse
     if ["head_excursion", "chest_deflection", "pulse"].contains(&key) {
         return;
     }
@@ -123,8 +124,9 @@ fn name_channel(resolver: &mut Resolver<'_>, index: usize, key: &str, at: At<'_>
     }
 }
 
-/// Outputs at an element, along its own axes, in the plane without those that are 0 there: of a head and a chest the accelerometers at the
-/// centre of gravity, which no field acts on, so that the pulse of a sled may be a field; of a neck the loads in the joint of the head.
+/// Outputs at an element, along its own axes; in the plane without those that are 0 there. For a head or a chest:
+/// accelerometers at the centre of gravity, whose reading excludes fields, so that the pulse of a sled may be a field.
+/// For a neck: the loads in the joint of the head.
 fn added(
     resolver: &mut Resolver<'_>,
     element: &str,

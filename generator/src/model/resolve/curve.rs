@@ -1,4 +1,4 @@
-//! Curves: units applied, abscissae proven to increase, uses counted.
+//! Curves: applies units, checks that abscissae increase, and enters curves that are written in place.
 
 use super::name::Style;
 use super::quantity::{Expected, Measure, PURE, TIME, describe};
@@ -17,7 +17,7 @@ use crate::description::unit::{Dimension, product, unit};
 use crate::diagnostic::{Diagnostic, quoted, suggestion};
 use crate::model::{Curve, Extrapolate, FieldComponent, Interpolate, Number, ScaledCurve};
 
-/// A curve and the measures of its abscissa and ordinate.
+/// A curve, with the dimensions of its abscissa and ordinate.
 #[derive(Clone, Debug)]
 pub struct Measured {
     pub curve: Curve,
@@ -25,7 +25,7 @@ pub struct Measured {
 }
 
 impl Resolver<'_> {
-    /// Enters a curve that has a name. One that is wrong is entered too, so that its uses are not reported as well.
+    /// Enters a named curve. A wrong curve is entered too, so that its uses are not reported as well.
     pub fn named_curve(&mut self, name: &str, written: &Written, at: At<'_>) {
         let key = at.key(name);
         let place = key.on_key();
@@ -49,7 +49,7 @@ impl Resolver<'_> {
         self.curves.push(measured);
     }
 
-    /// The curve as written, with what is wrong reported; `None` where too little is left of it.
+    /// The checked form of a curve. Problems are reported; `None` if they leave no useful curve.
     fn curve(&self, name: String, written: &Written, at: At<'_>) -> Option<Measured> {
         let before = self.problems.count();
         let mut measures = [Measure::Bare; 2];
@@ -70,7 +70,7 @@ impl Resolver<'_> {
             }
         }
         if let Some(table) = self.channel_of(written, at)? {
-            // the loader has found its unit
+            // the loader has found the unit of the channel
             let unit = Quantity::Text(table.unit.clone().unwrap_or_default());
             let place = at.key("channel");
             let (factor, measure) = self.curve_number(&unit, place)?;
@@ -114,7 +114,8 @@ impl Resolver<'_> {
         })
     }
 
-    /// The channel of a test that a curve has its points of; `None` within where it has none, and without where that is wrong.
+    /// The channel of a test from which a curve has its points; `Some(None)` if it has none, `None` if the channel is
+    /// wrong.
     fn channel_of(&self, written: &Written, at: At<'_>) -> Option<Option<&Table>> {
         let (mme, channel) = match (&written.mme, &written.channel) {
             (None, None) => return Some(None),
@@ -147,12 +148,12 @@ impl Resolver<'_> {
             ));
             return None;
         }
-        // one that could not be read is reported where it was
+        // a channel that could not be read has been reported by the loader
         let path = beside(&at.source.name, mme);
         self.tables.get(&channel_key(&path, channel)).map(Some)
     }
 
-    /// The points of a curve, given in place or in a file, in SI.
+    /// The points of a curve in SI, from a list or a file.
     fn points(
         &self,
         written: &Written,
@@ -164,7 +165,7 @@ impl Resolver<'_> {
             (Some(points), None) => points,
             (None, Some(file)) => {
                 let table = self.tables.get(&beside(&at.source.name, file));
-                // a file that could not be read is reported where it was
+                // a file that could not be read has been reported by the loader
                 return self.points_of_table(written, table?, at, (measures, factors));
             }
             (None, None) if written.mme.is_some() => {
@@ -214,7 +215,7 @@ impl Resolver<'_> {
         Some(points)
     }
 
-    /// The points of a list, in SI; `measures` become known from those with units, `factors` scale those without.
+    /// The points of a list, in SI. Points with units determine `measures`; `factors` scale points without units.
     fn listed_points(
         &self,
         listed: &[Vec<Quantity>],
@@ -264,7 +265,8 @@ impl Resolver<'_> {
         Some(points)
     }
 
-    /// The points in a file, or of a channel. Units in headings become factors and `measures`; those under `unit` may not contradict them.
+    /// The points of a file or a channel. Units in headings determine the factors and `measures`; units under `unit`
+    /// must not contradict them.
     fn points_of_table(
         &self,
         written: &Written,
@@ -309,7 +311,7 @@ impl Resolver<'_> {
         Some(points)
     }
 
-    /// The unit in the heading of a column; `None` within if there is none. `said` is what `unit` says beside it.
+    /// The unit in the heading of a column; `Some(None)` if there is none. `said` is the unit given by `unit`.
     fn unit_of_heading(
         &self,
         table: &Table,
@@ -353,7 +355,7 @@ impl Resolver<'_> {
         Some(Some(found))
     }
 
-    /// The columns that are asked for; `None` within if none are.
+    /// The columns that the user asks for; `Some(None)` if none are named.
     fn wanted_columns(
         &self,
         columns: Option<&[Quantity]>,
@@ -389,8 +391,8 @@ impl Resolver<'_> {
         Some(Some([x?, y?]))
     }
 
-    /// Reports abscissae that do not increase, and what is too steep. Given how an abscissa is shown, and how a problem with
-    /// a point is placed.
+    /// Reports abscissae that do not increase, and pieces that are too steep. `shown` is the text of an abscissa;
+    /// `problem` makes a report at a point.
     fn check_points(
         &self,
         points: &[[f64; 2]],
@@ -423,7 +425,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A constant of a curve.
+    /// A number in a curve, which must not depend on parameters.
     fn curve_number(&self, quantity: &Quantity, at: At<'_>) -> Option<(f64, Measure)> {
         let (number, measure) = self.measured(quantity, at)?;
         match number.constant() {
@@ -533,7 +535,7 @@ impl Resolver<'_> {
                 _ => false,
             };
             if !curve {
-                // a single word may be meant as a curve
+                // a single word may be the name of a curve
                 if let Quantity::Text(text) = quantity
                     && is_word(text)
                     && !text.split('-').all(|word| self.is_value(word))
@@ -561,17 +563,17 @@ impl Resolver<'_> {
         }
     }
 
-    /// A curve that is `value` at all abscissae.
+    /// A curve with the same value at all abscissae.
     pub fn constant_curve(&mut self, at: At<'_>, value: Number) -> ScaledCurve {
         self.straight(at, [1.0, 1.0], Extrapolate::Hold, value)
     }
 
-    /// The line from 0 to 1, held there.
+    /// The line from 0 to 1 over the abscissae 0 to 1, held on both sides.
     pub fn part_that_is_over(&mut self, at: At<'_>) -> ScaledCurve {
         self.straight(at, [0.0, 1.0], Extrapolate::Hold, Number::Constant(1.0))
     }
 
-    /// The line through 0 of this slope; `None` where that is 0.
+    /// The line through 0 with this slope; `None` if the slope is 0.
     pub fn line(&mut self, at: At<'_>, slope: Number) -> Option<ScaledCurve> {
         if slope.is_zero() {
             return None;
@@ -583,7 +585,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// `times` the straight line with these ordinates at 0 and 1, entered as a curve.
+    /// `times` the straight line with these ordinates at 0 and 1. The line is entered as a curve.
     fn straight(
         &mut self,
         at: At<'_>,
@@ -611,8 +613,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// What a law does against a length or an angle: a curve, or the line of a `stiffness`; `None` where that is nothing. `key` is that
-    /// of the curve.
+    /// The elastic law of a length or an angle: a curve, or the line of a `stiffness`; `None` if there is none. `key`
+    /// is the key of the curve.
     pub fn elastic(
         &mut self,
         (key, curve): (&str, Option<&Function>),
@@ -638,7 +640,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether a word stands for a number in an expression.
+    /// True if a word stands for a number in an expression.
     fn is_value(&self, word: &str) -> bool {
         self.parameters.iter().any(|p| p.name == word)
             || self.failed_parameters.iter().any(|p| p == word)
@@ -678,7 +680,7 @@ impl Resolver<'_> {
         let ordinate = match (measures[1], of_times) {
             (Measure::Known(a), Measure::Known(b)) => Measure::Known(a * b),
             (Measure::Known(a), Measure::Bare) => Measure::Known(a),
-            // bare ordinates are pure where the factor has a dimension, and SI where it has none
+            // ordinates without units are pure numbers if the factor has a dimension, otherwise they are in SI
             (Measure::Bare, Measure::Known(b)) if b != Dimension::ONE => Measure::Known(b),
             _ => Measure::Unknown,
         };
@@ -713,7 +715,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// What `curve` yields at the abscissa `x` and the default parameters.
+    /// The unscaled curve, and its factor `times` at the default parameters; `None` if the curve is wrong.
     pub fn curve_of(&self, curve: &ScaledCurve) -> Option<(&Curve, f64)> {
         let measured = self.curves.get(curve.curve)?.as_ref()?;
         Some((&measured.curve, curve.times.value(&self.defaults)))
@@ -727,7 +729,7 @@ fn expected_unit(expected: Expected) -> String {
     }
 }
 
-/// A word without operators, such as a name.
+/// True for a word without operators, such as a name.
 fn is_word(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_alphabetic())
         && text

@@ -1,4 +1,4 @@
-//! Elements: one tree per system, parents before children, masses and moments that a body can have.
+//! Elements: one tree for each system, with parents before children, and realisable masses and moments of inertia.
 
 use super::quantity::{ANGLE, INERTIA, LENGTH, MASS};
 use super::{NOWHERE, Resolver, name::Style};
@@ -13,7 +13,7 @@ use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
-/// The elements of a system, parents first, otherwise in the order of the text.
+/// The elements of a system: parents before children, otherwise in the order of the text.
 pub(super) fn tree(
     resolver: &Resolver<'_>,
     system: &str,
@@ -68,7 +68,7 @@ pub(super) fn tree(
     elements
 }
 
-/// Index of the parent of each element, as written. Parents that do not exist and second roots are reported.
+/// Index of the parent of each element, in the order of the text. Reports parents that do not exist, and second roots.
 fn parents(
     resolver: &Resolver<'_>,
     system: &str,
@@ -147,7 +147,8 @@ fn parents(
     parents
 }
 
-/// An order in which every parent stands before its children: of those that may come next, the first as written.
+/// An order in which every parent precedes its children. Among the elements that may come next, the first in the text
+/// is chosen.
 fn parents_first(
     resolver: &Resolver<'_>,
     written: &[Written],
@@ -169,7 +170,7 @@ fn parents_first(
         placed[i] = true;
         ready.extend(children[i].iter().map(|&c| Reverse(c)));
     }
-    // what is left hangs on a cycle; walk down to each and report it once
+    // the remaining elements hang on a cycle; each cycle is followed and reported once
     for start in 0..parents.len() {
         let mut trail = Vec::new();
         let mut at = start;
@@ -204,7 +205,7 @@ fn parents_first(
     order
 }
 
-/// The checked form of an element; zeros stand for what is wrong.
+/// The checked form of an element. Wrong values are replaced by zeros.
 fn element(
     resolver: &Resolver<'_>,
     system: &str,
@@ -256,8 +257,8 @@ fn element(
     element
 }
 
-/// Principal moments and Bryant angles of the principal axes of a tensor of six numbers, in space; `None` where
-/// `inertia` is no list of six.
+/// Principal moments and Bryant angles of the principal axes of an inertia tensor of six numbers, in space; `None` if
+/// `inertia` is not a list of six.
 fn tensor(
     resolver: &Resolver<'_>,
     written: &OneOrThree,
@@ -282,7 +283,7 @@ fn tensor(
     }
     let [xx, yy, zz, xy, xz, yz] = entries;
     let (moments, axes) = principal(&[[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-    // a rod has a moment of 0, and its tensor one of ±1e-17, or -1e-14 where it was written with twelve digits
+    // a rod has a moment of 0, which its tensor gives as ±1e-17, or as -1e-14 if it was written with twelve digits
     let largest = moments.iter().copied().fold(0.0, f64::max);
     let is_rounding = |m: f64| (-ROUNDING * largest..=1e-15 * largest).contains(&m);
     let clean = moments.map(|m| if is_rounding(m) { 0.0 } else { m });

@@ -12,8 +12,8 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Formula, Leaf, Number, Output, Quantity};
 use std::cell::RefCell;
 
-/// The checked form of a formula; `None` where it is wrong or switched off. `headings` are those of the outputs seen so far, also of those that are
-/// switched off.
+/// The checked form of a formula; `None` if it is wrong or switched off. `headings` are the headings of the outputs so
+/// far, including those that are switched off.
 pub(super) fn formula(
     resolver: &mut Resolver<'_>,
     written: &Written,
@@ -96,7 +96,7 @@ pub(super) fn formula(
     })
 }
 
-/// What an output that stands above looks at, and its dimension; `report` is told where there is none.
+/// The quantity of an output that is defined above the formula, and its dimension. Calls `report` if there is none.
 fn output_above(
     resolver: &Resolver<'_>,
     name: &str,
@@ -106,7 +106,7 @@ fn output_above(
     let found = resolver.outputs.iter().find(|output| output.name == name);
     let Some(output) = found else {
         let (message, help) = match above.iter().any(|heading| heading == name) {
-            // also where it is wrong, which is reported there
+            // if the output above is wrong, that has been reported there
             true if resolver.problems.count() > 0 => return None,
             true => (
                 format!("the output {} is switched off", quoted(name)),

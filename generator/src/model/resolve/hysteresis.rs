@@ -1,4 +1,4 @@
-//! Curves of unloading, and the steep line between them and those of loading.
+//! Hysteresis: curves of unloading, and the steep line between loading and unloading.
 
 use super::Resolver;
 use super::quantity::Expected;
@@ -8,25 +8,25 @@ use crate::description::quantity::Quantity;
 use crate::model::unloading;
 use crate::model::{Hysteresis, Number, ScaledCurve};
 
-/// The slope of the line between loading and unloading, where none is given, in steepest slopes of loading.
+/// Default slope of the line between loading and unloading, as a multiple of the steepest slope of loading.
 const STEEPNESS: f64 = 10.0;
 
-/// A force law with hysteresis as written.
+/// The keys of a force law with hysteresis, as written.
 pub struct Unloading<'w> {
-    /// `unloading`
+    /// The key `unloading`.
     pub curve: Option<&'w Function>,
-    /// `unloading_slope`
+    /// The key `unloading_slope`.
     pub slope: Option<&'w Quantity>,
-    /// The key of the curve of loading, and whether it was written.
+    /// The key of the loading curve, and true if it is written.
     pub loading: (&'static str, bool),
-    /// Where the force stands.
+    /// Place of the force in the text.
     pub at: At<'w>,
     /// Abscissa, ordinate and slope.
     pub expected: [Expected; 3],
 }
 
 impl Resolver<'_> {
-    /// The hysteresis of a force law; `None` where nothing is written of it, or there is no loading to unload from.
+    /// The hysteresis of a force law; `None` if none is written, or there is no loading curve.
     pub fn hysteresis(
         &mut self,
         loading: Option<&ScaledCurve>,
@@ -60,7 +60,7 @@ impl Resolver<'_> {
         }
 
         let (f, _) = self.curve_of(loading)?;
-        // by the curve as it is written: factors that are parameters stay such
+        // computed from the curve as written: factors that are parameters remain parameters
         let steepest = unloading::steepest(f).into_iter().fold(0.0, f64::max);
         let default = Number::quotient(
             Number::product((STEEPNESS * steepest).into(), loading.times.clone()),
@@ -79,7 +79,7 @@ impl Resolver<'_> {
     }
 }
 
-/// Whether two curves are one, however they are written.
+/// True if two curves are the same function, however they are written.
 fn are_one(resolver: &Resolver<'_>, a: &ScaledCurve, b: &ScaledCurve) -> bool {
     let shape = |curve: &ScaledCurve| {
         let (curve, _) = resolver.curve_of(curve)?;

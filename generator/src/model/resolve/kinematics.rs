@@ -1,4 +1,4 @@
-//! Rotations and positions in f64, as far as proofs about a model need them.
+//! Rotations and positions in f64, for checks of a model.
 //!
 //! A = Rx(φ₁) Ry(φ₂) Rz(φ₃); in the plane φ₁ = φ₃ = 0 and Ry(φ) maps (x, z) to (x cos φ + z sin φ, −x sin φ + z cos φ).
 
@@ -38,7 +38,7 @@ pub fn times(a: &Matrix, factor: f64) -> Matrix {
     a.map(|row| row.map(|entry| factor * entry))
 }
 
-/// The matrix of v ×.
+/// The matrix of the cross product v × ….
 pub fn cross(v: Vector) -> Matrix {
     [[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]]
 }
@@ -54,7 +54,8 @@ pub fn distance(a: Vector, b: Vector) -> f64 {
         .sqrt()
 }
 
-/// Rotation and origin of every element of a system at the start; `reference` is the rotation of what carries its root.
+/// Rotation and origin of every element of a system at the start. `reference` is the rotation of the body that carries
+/// the root.
 pub fn start(system: &System, reference: Matrix, parameters: &[f64]) -> Vec<(Matrix, Vector)> {
     let mut frames: Vec<(Matrix, Vector)> = Vec::with_capacity(system.elements.len());
     for element in &system.elements {
@@ -86,7 +87,7 @@ pub fn vehicle_start(vehicle: &Vehicle, parameters: &[f64]) -> (Matrix, Vector) 
     )
 }
 
-/// Where an attachment is at the start, given the frames of every system and the vehicles.
+/// The position of an attachment at the start, given the frames of the elements of all systems, and the vehicles.
 pub fn place(
     attachment: &Attachment,
     frames: &[Vec<(Matrix, Vector)>],

@@ -108,7 +108,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// Three numbers, in the plane too; or one, for some of the axes.
+    /// Three numbers, also in the plane; or one number, for the axes in `of_one`.
     fn three(
         &self,
         written: &OneOrThree,

@@ -1,9 +1,10 @@
-//! Proof that every freedom of a system meets an inertia, for systems with other joints than balls.
+//! Checks that every freedom of a system has an inertia, for systems with joints other than ball joints.
 //!
-//! The articulated-body algorithm is run once in f64, at the default parameters and in a general position. D = Hᵀ I H of a joint with the columns
-//! H, I the articulated inertia, has in its decomposition L d Lᵀ what is left of the inertia of each freedom when those further out, and those
-//! before it in the joint, move as they like. Where that is rounding beside the inertia of the composite body, the freedom meets none: two
-//! hinges of a list have one axis, a body without moments turns about its own centre of gravity, and so on.
+//! The articulated-body algorithm is run once in f64, at the default parameters and in a general position. For a joint
+//! with the columns H and the articulated inertia I, D = Hᵀ I H. Its decomposition L d Lᵀ has in d the inertia of each
+//! freedom that remains if all freedoms further out, and those before it in the same joint, move freely. If d is
+//! rounding compared with the inertia of the composite body, the freedom has no inertia: two hinges of a list have the
+//! same axis, a body without moments of inertia turns about its own centre of gravity, and so on.
 
 use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
@@ -13,23 +14,24 @@ use crate::joint::placement::{self, Column, placed};
 use crate::joint::{ball, free};
 use crate::model::{Element, Joint, Number, Reference, System};
 
-/// Matrix of wrenches and motions, linear components first.
+/// Matrix from motions to wrenches, linear components first.
 type Spatial = [[f64; 6]; 6];
 
-/// What meets no inertia.
+/// A freedom without inertia.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Idle {
-    /// Index in its system.
+    /// Index of the element in its system.
     pub element: usize,
-    /// The freedom by its name; none for a ball joint or the reference joint.
+    /// Name of the freedom; `None` for a ball joint or the reference joint.
     pub freedom: Option<String>,
-    /// What is left of its inertia, as a share of that of the composite body.
+    /// The remaining inertia, as a share of that of the composite body.
     pub left: f64,
-    /// Whether it is the reference joint.
+    /// True for the reference joint.
     pub reference: bool,
 }
 
-/// Whether a freedom moves its element as others of its joint do, in every position: then no mass helps.
+/// True if a freedom moves its element like other freedoms of the same joint, in every position. Then no mass or
+/// inertia helps.
 pub fn is_redundant(system: &System, idle: &Idle, planar: bool, parameters: &[f64]) -> bool {
     let mut heavy = system.clone();
     for element in &mut heavy.elements {
@@ -40,7 +42,7 @@ pub fn is_redundant(system: &System, idle: &Idle, planar: bool, parameters: &[f6
     still.is_some_and(|still| still.element == idle.element && still.freedom == idle.freedom)
 }
 
-/// The first freedom that meets no inertia, from the leaves inwards.
+/// The first freedom without inertia, from the leaves to the root.
 pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
     let frames = general_position(system, planar, parameters);
     let elements = &system.elements;
@@ -116,7 +118,8 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
     None
 }
 
-/// Of an element with these axes: its mass, the cross-product matrix of its centre of gravity, and its inertia about its joint.
+/// The mass of an element with the axes `a`, the cross-product matrix of its centre of gravity, and its inertia about
+/// its joint.
 pub(super) fn inertia(element: &Element, a: &Matrix, parameters: &[f64]) -> (f64, Matrix, Matrix) {
     let mass = element.mass.value(parameters);
     let c = cross(apply(a, values(&element.cg, parameters)));
@@ -128,14 +131,14 @@ pub(super) fn inertia(element: &Element, a: &Matrix, parameters: &[f64]) -> (f64
     (mass, c, about_origin)
 }
 
-/// Inertia of rotors on the freedoms of an element.
+/// Rotor inertia (armature) of each freedom of an element.
 fn armatures(system: &System, k: usize, parameters: &[f64]) -> Vec<f64> {
     let freedoms = system.elements[k].joint.freedoms().iter();
     freedoms.map(|f| f.armature.value(parameters)).collect()
 }
 
-/// The same of a system in which freedoms follow others: by S = Σ JᵀIJ, J the motion of each body per velocity, from the last velocity to
-/// the first.
+/// The first freedom without inertia in a system whose freedoms follow others, from the last velocity to the first.
+/// Uses S = Σ JᵀIJ, where J is the motion of each body per velocity.
 fn idle_of_matrix(
     system: &System,
     frames: &[(Matrix, Vector)],
@@ -171,7 +174,7 @@ fn idle_of_matrix(
     None
 }
 
-/// Of a velocity, its element and freedom; the reference joint has none.
+/// The element and freedom of a velocity; `None` for the reference joint.
 type Row = Option<(usize, usize)>;
 
 /// The directions in which the reference joint moves.
@@ -182,7 +185,7 @@ fn reference_directions(system: &System, planar: bool) -> &'static [usize] {
     }
 }
 
-/// The velocities of a system, those of the reference joint first.
+/// The velocities of a system; those of the reference joint come first.
 fn velocities(system: &System, planar: bool) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     rows.extend(reference_directions(system, planar).iter().map(|_| None));
@@ -201,7 +204,7 @@ fn velocities(system: &System, planar: bool) -> Vec<Row> {
     rows
 }
 
-/// S = Σ JᵀIJ
+/// The mass matrix S = Σ JᵀIJ.
 fn mass_matrix(
     system: &System,
     rows: &[Row],
@@ -259,7 +262,7 @@ fn mass_matrix(
     s
 }
 
-/// Rotation and origin of every element where nothing is special.
+/// Rotation and origin of every element in a general position, without symmetries.
 fn general_position(system: &System, planar: bool, parameters: &[f64]) -> Vec<(Matrix, Vector)> {
     let mut frames: Vec<(Matrix, Vector)> = Vec::new();
     for (k, element) in system.elements.iter().enumerate() {
@@ -281,7 +284,7 @@ fn general_position(system: &System, planar: bool, parameters: &[f64]) -> Vec<(M
     frames
 }
 
-/// Coordinates without any relation to each other.
+/// Coordinates without any relation to one another.
 fn general_coordinates(k: usize, count: usize) -> Vec<f64> {
     let step = 0.569_840_290_998_053;
     (0..count)
@@ -289,7 +292,7 @@ fn general_coordinates(k: usize, count: usize) -> Vec<f64> {
         .collect()
 }
 
-/// The columns of a joint at the origin of its element.
+/// The columns of a joint: the motion per velocity, at the origin of its element.
 fn columns(
     system: &System,
     k: usize,
@@ -314,7 +317,7 @@ fn columns(
     placement::columns((a, x), freedoms, &q, frames[k].1, parameters)
 }
 
-/// [[K, Bᵀ], [B, J]]
+/// The matrix [[K, Bᵀ], [B, J]].
 fn blocks(k: &Matrix, b: &Matrix, j: &Matrix) -> Spatial {
     std::array::from_fn(|row| {
         std::array::from_fn(|column| match (row < 3, column < 3) {
@@ -342,7 +345,7 @@ fn add(to: &mut Spatial, other: &Spatial) {
     }
 }
 
-/// What is left of an inertia when these velocities are free, one by one.
+/// The inertia that remains if the velocities in `columns` are free; they are eliminated one by one.
 fn eliminated(inertia: &Spatial, columns: &[Column], armatures: &[f64]) -> Spatial {
     let mut left = *inertia;
     for (j, column) in columns.iter().enumerate() {
@@ -357,7 +360,7 @@ fn eliminated(inertia: &Spatial, columns: &[Column], armatures: &[f64]) -> Spati
     left
 }
 
-/// Xᵀ I X with X = [[1, −û], [0, 1]], or [[1, −û], [0, 0]] where the element does not turn with its carrier.
+/// Xᵀ I X with X = [[1, −û], [0, 1]]; X = [[1, −û], [0, 0]] if the element does not turn with its carrier.
 fn transported(inertia: &Spatial, u: Vector, turns: bool) -> Spatial {
     let across = cross(u);
     let x: Spatial = std::array::from_fn(|i| {

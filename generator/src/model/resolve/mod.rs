@@ -1,10 +1,12 @@
-//! From the user's words to indices: every name looked up, every number in SI, every claim of [`Model`] proven.
+//! Resolves the description: every name becomes an index, every number is in SI, every property of [`Model`] is
+//! checked.
 //!
 //! ```text
 //! parameters → curves → vehicles → systems (elements, reference, start) → forces → switches → outputs → run
 //! ```
 //!
-//! Each step uses only what the steps before it have resolved, and goes on after a problem, so that all are reported.
+//! Each step uses only results of the steps before it, and continues after a problem, so that all problems are
+//! reported.
 
 pub(crate) mod applied;
 pub(crate) mod channel;
@@ -66,10 +68,11 @@ pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
     read_str(&read.name, &read.text, &read_file).map_err(|found| read.in_file(found))
 }
 
-/// Reads a model from text; `loader` is asked for the text of included files.
+/// Reads a model from text. `loader` returns the text of included files.
 ///
-/// `name` stands for the file in messages, and paths of included files are relative to it: a model `models/sled.yaml`
-/// that includes `data/child.yaml` asks for `models/data/child.yaml`. Returns the model and the names of the files read.
+/// `name` is the name of the file in messages. Paths of included files are relative to it: a model `models/sled.yaml`
+/// that includes `data/child.yaml` asks `loader` for `models/data/child.yaml`. Returns the model and the names of the
+/// files read.
 pub fn read_str(
     name: &str,
     text: &str,
@@ -79,7 +82,7 @@ pub fn read_str(
     Ok((resolved.model, loaded.paths))
 }
 
-/// As [`read`], but the Rust files of user forces are neither read nor missed: for writing them.
+/// Like [`read`], but without the Rust files of user forces, which may be missing: for writing these files.
 pub fn read_without_sources(
     name: &str,
     text: &str,
@@ -88,17 +91,18 @@ pub fn read_without_sources(
     resolve_with(name, text, loader, false).map(|(resolved, _)| resolved.model)
 }
 
-/// A model in its normal form, and before.
+/// A model before and after normalisation.
 pub struct Resolved {
-    /// In its normal form.
+    /// The model in its normal form.
     pub model: Model,
-    /// With all that the text mentions and that could be resolved, forces that are switched off behind the others.
+    /// The model with everything that the text mentions and that could be resolved. Forces that are switched off come
+    /// after the others.
     pub written: Model,
-    /// By what a run is judged, where the text says so.
+    /// The criteria by which a run is judged, if the text has any.
     pub criteria: Option<Criteria>,
 }
 
-/// AppliedForces and resolves, with the texts.
+/// Loads and resolves a model. Returns the model and the loaded texts.
 pub fn resolve(
     name: &str,
     text: &str,
@@ -133,49 +137,50 @@ fn resolve_with(
     Err(Diagnostics { problems: all })
 }
 
-/// What is resolved so far, and what is wrong.
+/// The parts of a model that are resolved so far, and the problems.
 ///
-/// Functions that check a part of a description look up here what the part names, add what is wrong to `problems`, and return the
-/// checked form. Only the steps of [`Resolver::model`] enter it; curves that are written in place are entered where they are met.
+/// A function that checks a part of a description looks up here the names that the part mentions, adds problems to
+/// `problems`, and returns the checked form. Only the steps of [`Resolver::model`] enter checked forms here, with one
+/// exception: curves that are written in place are entered when they are checked.
 pub struct Resolver<'a> {
     pub(crate) problems: &'a Problems,
     pub(crate) planar: bool,
-    /// Files with the points of curves.
+    /// Tables of points of curves, by file.
     pub(crate) tables: &'a BTreeMap<PathBuf, Table>,
     pub(crate) parameters: Vec<Parameter>,
-    /// Their values (SI), in the same order.
+    /// Default values of the parameters (SI), in the same order.
     pub(crate) defaults: Vec<f64>,
-    /// Their dimensions, in the same order.
+    /// Dimensions of the parameters, in the same order.
     pub(crate) measures: Vec<quantity::Measure>,
     /// Parameters whose declaration is wrong.
     pub(crate) failed_parameters: Vec<String>,
-    /// Named curves, then those written in place; `None` for what is wrong.
+    /// Named curves, then those written in place; `None` for a wrong curve.
     pub(crate) curves: Vec<Option<curve::Measured>>,
     /// Names of the named curves, in the same order.
     pub(crate) curve_names: Vec<String>,
     pub(crate) vehicles: Vec<Vehicle>,
     pub(crate) systems: Vec<System>,
-    /// Every element by its path.
+    /// All elements, by their paths.
     pub(crate) elements: HashMap<String, ElementId>,
-    /// The paths in order.
+    /// The paths of the elements, in order.
     pub(crate) paths: Vec<String>,
-    /// What the elements are of a body, where the text says so.
+    /// The part of a human body that an element represents, if the text says so.
     pub(crate) parts: HashMap<ElementId, channel::BodyPart>,
     pub(crate) forces: Vec<Force>,
-    /// Forces that are left out: kind and name.
+    /// Forces that are switched off or wrong: law and name.
     pub(crate) disabled: Vec<(&'static str, String)>,
-    /// Those of them that could be resolved.
+    /// Those disabled forces that could be resolved.
     pub(crate) off: Vec<Force>,
     pub(crate) outputs: Vec<Output>,
-    /// What is only shown.
+    /// Shapes that are only drawn.
     pub(crate) shown: Vec<Shown>,
-    /// Outputs with a unit of their own.
+    /// Names of outputs with a unit of their own, and the units.
     units: Vec<(String, Unit)>,
     pub(crate) switch_names: Vec<String>,
-    /// In the order of their names; `None` for what is wrong.
+    /// The switches, in the order of `switch_names`; `None` for a wrong switch.
     pub(crate) switches: Vec<Option<Switch>>,
     pub(crate) loaded: &'a Loaded,
-    /// What is being resolved, after which its curves are called: "belt lap".
+    /// The part of the description that is being resolved; names of its curves are made from this: "belt lap".
     pub(crate) owner: String,
 }
 
@@ -216,7 +221,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The whole model; `None` where nothing sensible can be made of it.
+    /// The whole model; `None` if problems leave no useful model.
     pub(crate) fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
         let top = loaded.files.last()?.source.at();
         let header = &loaded.header;
@@ -299,7 +304,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// Forgets what may be reported only because 0 stands for a parameter whose declaration is wrong.
+    /// Drops problems that may exist only because a parameter with a wrong declaration counts as 0.
     fn forget_consequences(&self, loaded: &Loaded) {
         if self.failed_parameters.is_empty() {
             return;
@@ -358,7 +363,7 @@ impl<'a> Resolver<'a> {
         self.systems.push(system);
     }
 
-    /// Enters the forces, after a look at all surfaces, also those that no contact names.
+    /// Enters the forces, after a check of all surfaces, including those that no contact names.
     fn enter_forces(&mut self, loaded: &Loaded) {
         let mut shown = Vec::new();
         for file in &loaded.files {
@@ -382,7 +387,7 @@ impl<'a> Resolver<'a> {
         self.shown.extend(self.meshes(loaded));
     }
 
-    /// Enters the outputs; `headings` become those of all, also of outputs that are switched off.
+    /// Enters the outputs. Adds their headings to `headings`, including those of outputs that are switched off.
     fn enter_outputs(&mut self, loaded: &Loaded, headings: &mut Vec<String>) {
         for file in &loaded.files {
             let at = file.source.at().key("outputs");
@@ -397,7 +402,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The switch of a name; reported where there is none.
+    /// Index of the switch with this name; reports if there is none.
     pub(crate) fn switch_id(&self, name: &str, at: At<'_>) -> Option<usize> {
         let found = self.switch_names.iter().position(|n| n == name);
         if found.is_none() {
@@ -414,7 +419,7 @@ impl<'a> Resolver<'a> {
         found
     }
 
-    /// The element of a path `system/element`; reported where there is none.
+    /// The element with the path `system/element`; reports if there is none.
     pub(crate) fn element_id(&self, path: &str, at: At<'_>) -> Option<ElementId> {
         if let Some(&id) = self.elements.get(path) {
             return Some(id);
@@ -445,13 +450,13 @@ impl<'a> Resolver<'a> {
         None
     }
 
-    /// Whether a system that was read before has an element of this name.
+    /// True if a system that was read before has an element of this name.
     pub fn has_element_elsewhere(&self, name: &str) -> bool {
         let mut elements = self.systems.iter().flat_map(|system| &system.elements);
         elements.any(|element| element.name == name)
     }
 
-    /// The body of a path: `frame`, a vehicle or an element; reported where there is none.
+    /// The body with this path: `frame`, a vehicle or an element; reports if there is none.
     pub(crate) fn body(&self, path: &str, at: At<'_>) -> Option<Body> {
         if path == "frame" {
             return Some(Body::Frame);
@@ -487,8 +492,7 @@ impl<'a> Resolver<'a> {
         }
     }
 
-    /// The path of an element.
-    /// What an element is of a body.
+    /// The part of a human body that an element represents.
     pub(crate) fn part(&self, id: ElementId) -> channel::BodyPart {
         self.parts.get(&id).copied().unwrap_or_default()
     }
@@ -498,7 +502,7 @@ impl<'a> Resolver<'a> {
         format!("{}/{}", system.name, system.elements[id.element].name)
     }
 
-    /// Whether the whole model has more elements than are read; reported once.
+    /// True if the whole model has more elements than are allowed; reports this.
     pub(crate) fn too_many_elements(&self, at: At<'_>) -> bool {
         let count: usize = self.systems.iter().map(|s| s.elements.len()).sum();
         if count > MAX_ELEMENTS {

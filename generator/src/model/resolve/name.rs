@@ -1,4 +1,4 @@
-//! Names: what may be one, and that each is given once.
+//! Names: permitted characters, and uniqueness.
 //!
 //! Names become identifiers of the generated source, with dashes as underscores.
 
@@ -11,7 +11,7 @@ use crate::diagnostic::quoted;
 /// Longest name \[characters\].
 const MAX_LENGTH: usize = 64;
 
-/// Keywords of Rust, edition 2024, those reserved for later too.
+/// Keywords of Rust, edition 2024, including reserved ones.
 const KEYWORDS: [&str; 54] = [
     "abstract",
     "as",
@@ -80,7 +80,7 @@ pub enum Style {
     Either,
 }
 
-/// Whether a word has a meaning in Rust.
+/// True if a word is a keyword of Rust.
 pub fn is_keyword(word: &str) -> bool {
     KEYWORDS.contains(&word)
 }
@@ -91,7 +91,7 @@ pub fn identifier(name: &str) -> String {
 }
 
 impl Resolver<'_> {
-    /// Whether `name` may be the name of `what` ("an element"); reported where it may not.
+    /// True if `name` may be the name of `what` ("an element"); otherwise reports it.
     pub fn check_name(&self, name: &str, what: &str, style: Style, at: At<'_>) -> bool {
         let separators = match style {
             Style::Kebab => "-",
@@ -142,7 +142,7 @@ impl Resolver<'_> {
         fine
     }
 
-    /// Whether `name` may be the name of a parameter; reported where it may not.
+    /// True if `name` may be the name of a parameter; otherwise reports it.
     pub fn check_parameter_name(&self, name: &str, at: At<'_>) -> bool {
         let report = |message: String, help: &str| {
             self.problems.add(at.key_problem(message, help));
@@ -198,7 +198,7 @@ impl Resolver<'_> {
         true
     }
 
-    /// Whether no earlier name becomes the same identifier; reported where one does.
+    /// True if no earlier name becomes the same identifier; otherwise reports it.
     pub fn check_unique<'n>(
         &self,
         name: &str,
@@ -235,7 +235,7 @@ fn joined_by(style: Style) -> &'static str {
     }
 }
 
-/// The name with what is wrong put right, where that leaves a name.
+/// The name with its faults mended; `None` if nothing useful is left.
 fn repaired(name: &str, style: Style) -> Option<String> {
     let separator = if style == Style::Snake { "_" } else { "-" };
     let mut spread = String::new();

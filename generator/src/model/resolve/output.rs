@@ -1,4 +1,4 @@
-//! Outputs: what of which, and the unit of the column.
+//! Outputs: their quantities, and the units of their columns.
 
 use super::channel::{self, Wanted};
 use super::quantity::LENGTH;
@@ -19,7 +19,7 @@ use crate::model::{
 /// Longest heading \[characters\].
 const MAX_HEADING: usize = 80;
 
-/// What can be asked of an element or a vehicle.
+/// A quantity of an element or a vehicle.
 #[derive(Clone, Copy)]
 enum OfBody {
     Point(PointQuantity),
@@ -28,7 +28,7 @@ enum OfBody {
 
 use OfBody::{Point as P, Rotation as R};
 
-/// What can be asked of a body; the last of an element alone.
+/// Name, unit and quantity for outputs of a body. The last one exists for elements only.
 const OF_BODY: [(&str, &str, OfBody); 8] = [
     ("position", "m", P(PointQuantity::Position)),
     ("displacement", "m", P(PointQuantity::Displacement)),
@@ -48,7 +48,7 @@ const OF_BODY: [(&str, &str, OfBody); 8] = [
     ("accelerometer", "m/s^2", P(PointQuantity::Accelerometer)),
 ];
 
-/// Of a freedom that turns, and of one that slides.
+/// Name, unit and quantity for outputs of a freedom: one that turns, and one that slides.
 const OF_FREEDOM: [[(&str, &str, FreedomQuantity); 3]; 2] = [
     [
         ("angle", "rad", FreedomQuantity::Position),
@@ -62,7 +62,7 @@ const OF_FREEDOM: [[(&str, &str, FreedomQuantity); 3]; 2] = [
     ],
 ];
 
-/// What every joint transmits, whether a law acts in it or not.
+/// Loads in every joint, whether a law acts in it or not.
 const OF_ANY_JOINT: [(&str, &str, JointLoadQuantity); 2] = [
     ("force", "N", JointLoadQuantity::Force),
     ("moment", "N*m", JointLoadQuantity::Moment),
@@ -84,7 +84,7 @@ const OF_SWITCH: [(&str, &str, SwitchQuantity); 2] = [
     ("time", "s", SwitchQuantity::Time),
 ];
 
-/// What `of` names.
+/// The object that the key `of` names.
 enum Subject {
     Element(ElementId),
     System(usize),
@@ -95,7 +95,8 @@ enum Subject {
     Switch(usize),
 }
 
-/// The checked form of an output; `None` where it is wrong or switched off. `headings` are those seen so far, also of outputs that are switched off.
+/// The checked form of an output; `None` if it is wrong or switched off. `headings` are the headings so far, including
+/// those of outputs that are switched off.
 pub(super) fn output(
     resolver: &mut Resolver<'_>,
     written: &Written,
@@ -126,7 +127,7 @@ pub(super) fn output(
                 by: &format!("the channel code {code}"),
                 at: at.key("code"),
             };
-            // of a wrong one the rest is looked at, too
+            // after a problem with the channel, the rest is checked all the same
             match channel::channel(resolver, quantity.clone(), wanted) {
                 Some((quantity, channel)) => (quantity, Some(channel)),
                 None => (quantity, None),
@@ -153,7 +154,7 @@ pub(super) fn output(
     })
 }
 
-/// Reports a channel code that is none, that another output has, or that says another filter than the output has.
+/// Reports a channel code that is invalid, that another output has, or that contradicts the filter of the output.
 fn check_code(resolver: &Resolver<'_>, code: &str, filter: Option<u16>, at: At<'_>) {
     let is_code = code.len() == 16
         && code
@@ -190,7 +191,7 @@ fn check_code(resolver: &Resolver<'_>, code: &str, filter: Option<u16>, at: At<'
     }
 }
 
-/// Reports a heading that cannot be one, or is too much like another; adds it to them.
+/// Reports a heading that is invalid or too similar to another; adds it to `headings`.
 pub(super) fn heading(resolver: &Resolver<'_>, name: &str, at: At<'_>, headings: &mut Vec<String>) {
     let plain = |name: &str| {
         name.to_lowercase()
@@ -233,7 +234,8 @@ pub(super) fn heading(resolver: &Resolver<'_>, name: &str, at: At<'_>, headings:
 }
 
 impl Resolver<'_> {
-    /// What an output asks for, and its unit. Of one that is `off`, a force may be off too.
+    /// The quantity that an output asks for, and its unit. If `off` is true, the output is switched off, and its force
+    /// may be switched off too.
     pub fn quantity(
         &self,
         written: &Written,
@@ -284,7 +286,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// What `of` names; reported where that is nothing. Of an output that is `off`, a force may be off too.
+    /// The object that `of` names; reports if there is none. If `off` is true, a force that is switched off counts,
+    /// too.
     fn subject(&self, written: &Written, at: At<'_>, off: bool) -> Option<Subject> {
         let (of, at) = (written.of.as_str(), at.key("of"));
         let words: Vec<&str> = of.split_whitespace().collect();
@@ -320,7 +323,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Reports a name alone that is that of no system, vehicle or element.
+    /// Reports a single word that names no system, vehicle or element.
     fn nothing_called(&self, name: &str, at: At<'_>) {
         let mut forces = self.forces.iter().filter(|f| f.name == name);
         let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
@@ -343,7 +346,7 @@ impl Resolver<'_> {
             .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
     }
 
-    /// The force that `of` names, by its kind and name.
+    /// The force that `of` names, by its law and name.
     fn force_named(
         &self,
         [kind, name]: [&str; 2],
@@ -380,7 +383,7 @@ impl Resolver<'_> {
                 .iter()
                 .any(|(k, n)| *k == law.key && n == name)
             {
-                // a force that is wrong is left out too, but then that is reported
+                // a force may also be missing because it is wrong, which has been reported
                 if !off && self.problems.count() == 0 {
                     self.problems.add(at.problem(
                         format!("the {called} {} is switched off", quoted(name)),
@@ -505,7 +508,7 @@ impl Resolver<'_> {
         Some((quantity, unit))
     }
 
-    /// The point of a body that an output looks at.
+    /// The point of a body that an output observes.
     fn point_of_body(&self, written: &Written, body: Body, at: At<'_>) -> Option<[Number; 3]> {
         let place = at.key("at");
         match (body, &written.at) {
@@ -524,7 +527,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// The body along whose axes a vector is taken: that which is said, else that of the observer. `local` is the body itself.
+    /// The body whose axes define the components of a vector: the one that is written, otherwise the observer's.
+    /// `local` is the body itself.
     pub fn axes(
         &self,
         written: &Written,
@@ -547,7 +551,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether an element is there whose joint has coordinates of its own, and one of them is asked for.
+    /// True if the path is an element whose joint has coordinates of its own, and `what` is a quantity of these.
     fn has_freedoms(&self, path: &str, what: &str) -> bool {
         let element = self.elements.get(path);
         let element = element.map(|id| &self.systems[id.system].elements[id.element]);
@@ -555,7 +559,7 @@ impl Resolver<'_> {
         asked && element.is_some_and(|e| e.joint.turns_with_carrier())
     }
 
-    /// The coordinate of a freedom of a joint.
+    /// An output of the coordinate of a freedom of a joint.
     fn of_freedom(
         &self,
         written: &Written,
@@ -576,7 +580,7 @@ impl Resolver<'_> {
         Some((quantity, unit))
     }
 
-    /// What a joint transmits.
+    /// An output of the load in a joint.
     fn of_any_joint(
         &self,
         written: &Written,
@@ -623,7 +627,8 @@ impl Resolver<'_> {
         Some((quantity, unit))
     }
 
-    /// The force of a belt that runs through rings, or of an airbag, on one of the bodies of its points; without `on`, on the first.
+    /// The force of a belt that runs through rings, or of an airbag, on one of the bodies of its points; on the first
+    /// body if there is no `on`.
     pub(crate) fn on_points(
         &self,
         written: &Written,
@@ -660,7 +665,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// The force between two bodies on one of them.
+    /// The force between two bodies, on one of them.
     pub(crate) fn force_on(
         &self,
         written: &Written,
@@ -685,7 +690,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// Whether `on` names the second of two bodies; without it, the first is meant.
+    /// True if `on` names the second of two bodies; false for the first, or if there is no `on`.
     pub(crate) fn on_second(
         &self,
         written: &Written,
@@ -707,7 +712,7 @@ impl Resolver<'_> {
         found.map(|index| index == 1)
     }
 
-    /// As `on` names it.
+    /// The name of a body, as `on` has it.
     fn body_name(&self, body: Body) -> String {
         match body {
             Body::Frame => "frame".to_owned(),
@@ -716,19 +721,19 @@ impl Resolver<'_> {
         }
     }
 
-    /// A scalar of a force; the keys that ask for a direction are reported.
+    /// A scalar quantity of a force; reports keys that ask for a direction.
     pub(crate) fn scalar(&self, force: usize, what: Asked, at: At<'_>) -> Quantity {
         self.without(at, &["component", "axes", "on"], "a scalar");
         Quantity::OfForce { force, what }
     }
 
-    /// Reports the keys that mean nothing for a law between bodies, called so.
+    /// Reports keys that have no meaning for a law between bodies, which messages call `law`.
     pub(crate) fn of_law(&self, at: At<'_>, law: &str) {
         self.without(at, &["segment", "ring"], "anything but a belt");
         self.without(at, &["at", "about", "relative_to"], law);
     }
 
-    /// Which relative rotation of a joint is meant.
+    /// Index of the relative rotation of a joint that `about` names.
     pub fn about(&self, written: &Written, at: At<'_>) -> Option<usize> {
         match (written.about, self.planar) {
             (None | Some(Axis::Y), true) => Some(1),
@@ -828,7 +833,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Reports keys that mean nothing here.
+    /// Reports keys that have no meaning here.
     pub fn without(&self, at: At<'_>, keys: &[&str], of: &str) {
         for key in keys {
             if at.node.get(key).is_some() {
@@ -841,7 +846,7 @@ impl Resolver<'_> {
     }
 }
 
-/// Whether an output asks for more of a force than its size.
+/// True if an output asks for a component of a force, or names axes.
 pub(crate) fn has_direction(written: &Written) -> bool {
     written
         .component

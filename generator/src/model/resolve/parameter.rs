@@ -1,4 +1,4 @@
-//! Parameters: names that are identifiers, constants within their range.
+//! Parameters: their names are identifiers, their values constants within their range.
 
 use super::Resolver;
 use super::quantity::{Measure, describe};
@@ -76,7 +76,7 @@ pub(super) fn parameter(
     ))
 }
 
-/// A bound of a parameter whose value is this.
+/// A bound of a parameter. Its dimension must be `of_value`.
 fn bound(
     resolver: &Resolver<'_>,
     quantity: &Quantity,

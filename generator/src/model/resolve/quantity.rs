@@ -1,7 +1,7 @@
-//! Quantities as written to numbers in SI, their dimensions checked.
+//! Converts written quantities to numbers in SI, and checks their dimensions.
 //!
-//! A bare number is SI and fits everywhere; a parameter without unit fits everywhere too, but gives no dimension to a
-//! product. Everything else has the dimension of its units.
+//! A number without unit is in SI and may be used everywhere. So may a parameter without unit, but a product with it
+//! has no known dimension. Everything else has the dimension of its units.
 
 use super::Resolver;
 use crate::description::expression::{self, Expression, Function, Kind, Operator};
@@ -12,24 +12,25 @@ use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Number, Requirement};
 
-/// What is known of a number's dimension.
+/// What is known about the dimension of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure {
-    /// A bare number: SI where it stands alone, pure in a product.
+    /// A number without unit: in SI by itself, a pure number in a product.
     Bare,
     /// A parameter without unit.
     Unknown,
-    /// Given by units.
+    /// A dimension given by units.
     Known(Dimension),
 }
 
-/// What a name in an expression stands for, by the name, its first character and its length; `None` where it is reported.
+/// Returns the meaning of a name in an expression, given the name, the position of its first character and its length;
+/// `None` if the name is wrong, which is reported.
 pub type Names<'a> = &'a dyn Fn(&str, usize, usize) -> Option<(Number, Measure)>;
 
-/// What a key wants.
+/// The physical quantity that a key expects.
 #[derive(Clone, Copy, Debug)]
 pub struct Expected {
-    /// With its article ("a mass").
+    /// Name with its article ("a mass").
     pub name: &'static str,
     /// Its dimension.
     pub dimension: Dimension,
@@ -72,20 +73,20 @@ pub const TEMPERATURE: Expected = Expected {
     dimension: Dimension::ONE.kelvin(1),
 };
 
-/// R of a gas.
+/// The specific gas constant R.
 pub const GAS_CONSTANT: Expected = Expected {
     name: "a gas constant",
     dimension: Dimension::new(2, 0, -2, 0).kelvin(-1),
 };
 
-/// Any dimension; there is no unit of these powers.
+/// Accepts any dimension; its own powers belong to no unit.
 pub const ANY: Expected = Expected {
     name: "anything",
     dimension: Dimension::new(i32::MAX, i32::MAX, i32::MAX, 0),
 };
 
 impl Expected {
-    /// Whether a quantity of this dimension will do.
+    /// True if a quantity of this dimension is accepted.
     pub fn accepts(&self, dimension: Dimension) -> bool {
         self.dimension == ANY.dimension || self.dimension == dimension
     }
@@ -100,7 +101,7 @@ impl Expected {
 }
 
 impl Resolver<'_> {
-    /// The number and its measure; `None` where that is reported.
+    /// The number and what is known about its dimension; `None` after a reported problem.
     pub fn measured(&self, quantity: &Quantity, at: At<'_>) -> Option<(Number, Measure)> {
         let (number, measure) = match quantity {
             Quantity::Number(value) => (Number::Constant(*value), Measure::Bare),
@@ -134,7 +135,7 @@ impl Resolver<'_> {
         Some((number, measure))
     }
 
-    /// The number, of the dimension that is expected; 0 where that is reported.
+    /// The number, which must have the expected dimension; 0 after a reported problem.
     pub fn number(&self, quantity: &Quantity, at: At<'_>, expected: Expected) -> Number {
         let Some((number, measure)) = self.measured(quantity, at) else {
             return Number::ZERO;
@@ -173,7 +174,8 @@ impl Resolver<'_> {
         number
     }
 
-    /// The number as [`number`](Self::number), with its value at the default parameters unless a problem is reported.
+    /// The number as by [`number`](Self::number), with its value at the default parameters; no value after a reported
+    /// problem.
     pub fn valued(
         &self,
         quantity: &Quantity,
@@ -186,7 +188,7 @@ impl Resolver<'_> {
         (number, (self.problems.count() == before).then_some(value))
     }
 
-    /// A coefficient; `None` where it is 0 or left out.
+    /// A coefficient; `None` if it is 0 or missing.
     pub fn coefficient(
         &self,
         quantity: Option<&Quantity>,
@@ -197,8 +199,8 @@ impl Resolver<'_> {
         (!number.is_zero()).then_some(number)
     }
 
-    /// Reports what breaks a requirement at the default parameters; `at` is what the requirements are of. What is reported otherwise is
-    /// left alone, and so is what breaks more than one.
+    /// Reports requirements that are broken at the default parameters. `at` is the place of their owner. Each place is
+    /// reported only once, and not if it has another problem already.
     pub fn judge(&self, requirements: Vec<Requirement>, at: At<'_>) {
         let mut reported: Vec<String> = Vec::new();
         for requirement in requirements {
@@ -228,7 +230,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// Whether a value holds at the default parameters only, in words.
+    /// Words to add to a message if a value depends on parameters.
     pub fn by_default(&self, number: &Number) -> &'static str {
         match number.constant() {
             Some(_) => "",
@@ -248,12 +250,12 @@ impl Resolver<'_> {
         vector
     }
 
-    /// The absolute axis of a component as written.
+    /// Index of the absolute axis that belongs to an entry of a written vector.
     pub fn axis(&self, index: usize) -> usize {
         if self.planar { 2 * index } else { index }
     }
 
-    /// Whether a list has one entry per dimension; reported where it has not.
+    /// True if a list has one entry for each dimension; otherwise reports it.
     pub fn has_length(&self, length: usize, at: At<'_>) -> bool {
         let (right, help) = if self.planar {
             (2, "in the plane a vector is written `[x, z]`")
@@ -269,7 +271,7 @@ impl Resolver<'_> {
         length == right
     }
 
-    /// Moments, angles or rates: the one about y in the plane, three in space.
+    /// Moments, angles or rates about axes: one about y in the plane, three in space.
     pub fn rotation(&self, value: &OneOrThree, at: At<'_>, expected: Expected) -> [Number; 3] {
         let mut rotation = [Number::ZERO; 3];
         for (axis, component, at) in self.about_axes(value, at, expected) {
@@ -278,7 +280,7 @@ impl Resolver<'_> {
         rotation
     }
 
-    /// What is given about each axis, with its place; nothing where the number of axes is wrong, which is reported.
+    /// The entry for each axis, with its place. Reports a wrong number of entries, and then returns none.
     pub fn about_axes<'w, T>(
         &self,
         value: &'w OneOrThree<T>,
@@ -323,7 +325,7 @@ impl Resolver<'_> {
         ));
     }
 
-    /// The parameter of this name, which stands in a text; reported where there is none.
+    /// The parameter with this name, within a text at `offset`; reports if there is none.
     pub(super) fn parameter(
         &self,
         name: &str,
@@ -333,7 +335,7 @@ impl Resolver<'_> {
     ) -> Option<(Number, Measure)> {
         match self.parameters.iter().position(|p| p.name == name) {
             Some(index) => Some((Number::Parameter(index), self.measures[index])),
-            // its declaration is what is wrong
+            // the problem in the declaration of the parameter has been reported
             None if self.failed_parameters.iter().any(|p| p == name) => None,
             None => {
                 let names = self.parameters.iter().map(|p| p.name.as_str());
@@ -357,7 +359,7 @@ impl Resolver<'_> {
         }
     }
 
-    /// A number that depends on no parameter.
+    /// A number that must not depend on parameters.
     pub(crate) fn constant(
         &self,
         quantity: &Quantity,
@@ -374,7 +376,8 @@ impl Resolver<'_> {
         Some((number.constant()?, measure))
     }
 
-    /// Folds an expression and finds its dimension. `names` knows what its names stand for, and reports those that stand for nothing.
+    /// Simplifies an expression and finds its dimension. `names` returns the meaning of its names, and reports unknown
+    /// ones.
     pub(super) fn expression(
         &self,
         e: &Expression,
@@ -448,7 +451,7 @@ impl Resolver<'_> {
         })
     }
 
-    /// What a sum, a product or a quotient is; `e` is all of it.
+    /// The dimension of a sum, a product or a quotient. `e` is the whole expression.
     fn measure_of(
         &self,
         operator: Operator,

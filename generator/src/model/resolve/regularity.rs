@@ -1,20 +1,20 @@
-//! Proof that the mass matrix is not structurally singular, and that rounding does not make it so.
+//! Checks that the mass matrix is neither structurally singular nor singular up to rounding.
 //!
-//! S is singular where something can move without kinetic energy. Masses are positive, so then no centre of gravity moves, and
-//! each element turns about axes only about which it has no moment: the zeros among its principal moments, N. What matters
-//! is which moments are zero, not how large the others are. Leaves to root, in a general attitude, with c the centre of
-//! gravity and u_c the joints outboard, absolute axes,
+//! S is singular if a system can move without kinetic energy. As masses are positive, no centre of gravity moves then,
+//! and each element turns only about axes about which it has no moment of inertia; these axes span N. It matters which
+//! moments are zero, not how large the others are. From the leaves to the root, in a general attitude, with the centre
+//! of gravity c and the positions u_c of the outboard joints, in absolute axes:
 //!
 //! ```text
 //! Ω = { ω ∈ N : ω × (u_c − c) ∈ V_c for each child }     turns without energy, −ω × c being the velocity of the joint
 //! V = { −ω × c : ω ∈ Ω }                                 what the joint may do without energy
 //! ```
 //!
-//! S is singular in every attitude exactly where some ω of Ω along c leaves the joint at rest, or where V of a free reference
-//! joint is not 0. In the plane the only turn is about y.
+//! S is singular in every attitude exactly if some ω of Ω is parallel to c, so that the joint rests, or if V of a free
+//! reference joint contains more than 0. In the plane, the only turn is about y.
 //!
-//! What is regular can still be lost to rounding. The elimination of FORMALISM is run once at the default parameters, with û
-//! the cross-product matrix,
+//! Rounding can make a regular matrix singular. So the elimination of FORMALISM is run once at the default parameters,
+//! with the cross-product matrix û:
 //!
 //! ```text
 //! J' = A I Aᵀ + m(c²1 − ccᵀ) − Σ û_c K_c û_c        what turning about the joint meets
@@ -22,7 +22,7 @@
 //! K  = m 1 + ΣK_c − Hᵀ J'⁻¹ H                        what the joint's acceleration meets
 //! ```
 //!
-//! and no J', nor K of a free reference joint, may have an eigenvalue that is rounding beside its terms.
+//! No J', nor K of a free reference joint, may have an eigenvalue that is rounding compared with its terms.
 
 use super::Resolver;
 use super::kinematics::{
@@ -34,19 +34,19 @@ use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::{Dimension, Element, Model, Reference, System};
 
-/// Inertia smaller than this part of the largest is lost: a product of a dozen rotations carries some 50 ε ≈ 1e-14, which
-/// leaves it one digit.
+/// Inertia smaller than this part of the largest is lost: a product of a dozen rotations has an error of some 50
+/// ε ≈ 1e-14, which leaves one digit.
 pub const ROUNDING: f64 = 1e-13;
 
-/// The square of a sine that is rounding: an inertia is quadratic in the distance from its axis.
+/// Square of a sine that counts as rounding, as an inertia is quadratic in the distance from its axis.
 const PARALLEL: f64 = 1e-14;
 
-/// An element whose motion meets no inertia.
+/// An element that can move without inertia.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Singular {
-    /// Index in its system.
+    /// Index of the element in its system.
     pub element: usize,
-    /// Which motion.
+    /// The motion without inertia.
     motion: Motion,
 }
 
@@ -54,19 +54,19 @@ pub struct Singular {
 enum Motion {
     /// A freedom of a joint, a ball joint, or the reference joint.
     Idle(Idle),
-    /// It turns about this axis of its frame; with the reference joint free, about its centre of gravity.
+    /// The element turns about this axis of its frame; if the reference joint is free, about its centre of gravity.
     Turn { axis: Vector, free: bool },
-    /// It turns about this axis of its frame with an inertia that is rounding beside another.
+    /// The element turns about this axis of its frame with an inertia that is rounding compared with another.
     Slight {
         axis: Vector,
         inertia: f64,
         beside: f64,
     },
-    /// The reference joint moves with an inertia that is rounding beside another.
+    /// The reference joint moves with an inertia that is rounding compared with another.
     SlightReference { inertia: f64, beside: f64 },
 }
 
-/// Reports the elements that can move without inertia.
+/// Reports elements that can move without inertia.
 pub(super) fn check_regularity(resolver: &Resolver<'_>, loaded: &Loaded) {
     for system in &resolver.systems {
         if let Some(singular) = singular(system, resolver.planar, &resolver.defaults) {
@@ -84,7 +84,7 @@ pub(super) fn check_regularity(resolver: &Resolver<'_>, loaded: &Loaded) {
     }
 }
 
-/// What is wrong, and what helps. `redundant` says that a freedom does what others of its joint do.
+/// The problem and a remedy, in words. `redundant` is true if a freedom does the same as others of its joint.
 fn explain(
     resolver: &Resolver<'_>,
     system: &str,
@@ -144,7 +144,7 @@ fn explain(
     }
 }
 
-/// The same of a freedom without inertia; `system` and `element` are in quotation marks.
+/// The problem and a remedy for a freedom without inertia. `system` and `element` are in quotation marks.
 fn explain_idle(system: &str, element: &str, idle: Idle, redundant: bool) -> (String, String) {
     let which = match (idle.freedom, idle.reference) {
         (Some(freedom), _) => format!("the freedom {} of element {element}", quoted(&freedom)),
@@ -166,7 +166,7 @@ fn explain_idle(system: &str, element: &str, idle: Idle, redundant: bool) -> (St
 }
 
 impl Model {
-    /// True where the mass matrix is not structurally singular; of a model that was read it is not.
+    /// True if the mass matrix is not structurally singular, which holds for every model that was read.
     pub fn is_regular(&self) -> bool {
         let defaults: Vec<f64> = self.parameters.iter().map(|p| p.default).collect();
         let planar = self.dimension == Dimension::Plane;
@@ -175,7 +175,7 @@ impl Model {
     }
 }
 
-/// The inertia of an element as written.
+/// The place where the inertia of an element is written.
 fn place<'w>(loaded: &'w Loaded, system: &str, element: &str) -> At<'w> {
     let mut found = loaded.files[loaded.files.len() - 1].source.at();
     for file in &loaded.files {
@@ -191,7 +191,7 @@ fn place<'w>(loaded: &'w Loaded, system: &str, element: &str) -> At<'w> {
     found
 }
 
-/// A direction as people write it: three digits, the largest component 1.
+/// A direction as people write it: with three digits, and a largest component of 1.
 fn shown(axis: Vector) -> String {
     let largest = axis
         .iter()
@@ -204,7 +204,8 @@ fn shown(axis: Vector) -> String {
     format!("[{}]", digits.join(", "))
 }
 
-/// The first element whose motion meets no inertia, from the leaves down; where none is, the first whose inertia is lost.
+/// The first element, from the leaves to the root, that can move without inertia; otherwise the first whose inertia is
+/// lost to rounding.
 pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<Singular> {
     if !system.has_balls_alone() {
         return idle(system, planar, parameters).map(|idle| Singular {
@@ -219,7 +220,7 @@ pub fn singular(system: &System, planar: bool, parameters: &[f64]) -> Option<Sin
         .or_else(|| slight(system, planar, parameters, &attitudes))
 }
 
-/// The axes about which an element has no moment, absolute axes; unit vectors across each other.
+/// Unit vectors along the principal axes about which an element has no moment of inertia, in absolute axes.
 fn idle_axes(element: &Element, a: &Matrix, planar: bool, parameters: &[f64]) -> Vec<Vector> {
     let moments = values(&element.inertia, parameters);
     let columns = transpose(&product(a, &rotation(values(&element.axes, parameters))));
@@ -231,7 +232,8 @@ fn idle_axes(element: &Element, a: &Matrix, planar: bool, parameters: &[f64]) ->
     }
 }
 
-/// The first element that can turn without energy while its joint rests, or the root if it can while its joint is free.
+/// The first element that can turn without energy while its joint rests; or the root, if it can turn while its joint
+/// moves freely.
 fn without_inertia(
     system: &System,
     planar: bool,
@@ -239,7 +241,7 @@ fn without_inertia(
     attitudes: &[Matrix],
 ) -> Option<Singular> {
     let elements = &system.elements;
-    // By element: how its joint may move without energy, V.
+    // For each element, V: the directions in which its joint may move without energy.
     let mut idle: Vec<Vec<Vector>> = vec![Vec::new(); elements.len()];
     let mut children = vec![Vec::new(); elements.len()];
     for (k, element) in elements.iter().enumerate() {
@@ -262,7 +264,7 @@ fn without_inertia(
             },
         };
         let center = apply(a, values(&element.cg, parameters));
-        // ωᵀ G ω = 0 is ω ∈ Ω: a square for each condition.
+        // Each condition on ω is a square in G: ωᵀ G ω = 0 if and only if ω ∈ Ω.
         let mut conditions = IDENTITY;
         for axis in &axes {
             conditions = plus(&conditions, &times(&square(*axis), -1.0));
@@ -275,7 +277,7 @@ fn without_inertia(
             if let Some(arm) = direction(arm, size(joint).max(size(center))) {
                 let mut across = cross(arm);
                 for free in &idle[c] {
-                    // less what the child lets pass
+                    // removes the directions in which the child's joint may move
                     let passed = product(&square(*free), &across);
                     across = plus(&across, &times(&passed, -1.0));
                 }
@@ -284,7 +286,7 @@ fn without_inertia(
         }
         let turns = kernel(&conditions);
         let Some(center) = direction(center, largest) else {
-            // the joint rests whatever the turn
+            // the centre of gravity is at the joint, which rests in every turn
             match turns.first() {
                 Some(&axis) => return Some(turn(axis, false)),
                 None => continue,
@@ -318,9 +320,9 @@ fn square(v: Vector) -> Matrix {
     v.map(|a| v.map(|b| a * b))
 }
 
-/// v by its length, unless that is rounding beside `scale`.
+/// The unit vector along v; `None` if the length of v is rounding compared with `scale`.
 fn direction(v: Vector, scale: f64) -> Option<Vector> {
-    // in two steps, so that squares of very small and very large lengths stay numbers
+    // scaled first, so that the squares of very small and very large lengths neither underflow nor overflow
     let largest = v.iter().fold(0.0f64, |m, a| m.max(a.abs()));
     if largest <= ROUNDING * scale {
         return None;
@@ -330,7 +332,7 @@ fn direction(v: Vector, scale: f64) -> Option<Vector> {
     Some(v.map(|a| a / length))
 }
 
-/// Unit vectors that a sum of squares of conditions, each of the size of 1, does not see.
+/// Unit vectors that satisfy all conditions, given as a sum of squares, each of the size of 1.
 fn kernel(conditions: &Matrix) -> Vec<Vector> {
     let (values, vectors) = eigen(conditions);
     let seen = values.into_iter().zip(vectors);
@@ -339,7 +341,7 @@ fn kernel(conditions: &Matrix) -> Vec<Vector> {
         .collect()
 }
 
-/// The first element from the leaves down whose inertia is rounding beside that of others.
+/// The first element, from the leaves to the root, whose inertia is rounding compared with that of others.
 fn slight(
     system: &System,
     planar: bool,
@@ -358,7 +360,8 @@ fn slight(
         let j = plus(&own, &turning[k]);
         let h = plus(&times(&c, mass), &moment[k]);
         scale[k] += trace(&own);
-        // Hᵀ J'⁻¹ H by eigenvectors, a square each: entries of J'⁻¹ would be large where those of Hᵀ are to make them vanish
+        // Hᵀ J'⁻¹ H as a sum of squares, one for each eigenvector: entries of J'⁻¹ may be so large that only products
+        // with Hᵀ cancel them
         let mut taken = [[0.0; 3]; 3];
         for (inertia, axis) in turns(&j, planar) {
             if inertia.is_nan() || inertia <= ROUNDING * scale[k] {
@@ -404,7 +407,7 @@ fn slight(
     None
 }
 
-/// Angles without any relation to each other: multiples of irrational numbers.
+/// Angles without any relation to one another: multiples of irrational numbers.
 pub fn general_angles(k: usize, planar: bool) -> Vector {
     let angle = |step: f64| ((k + 1) as f64 * step).fract() * 2.0 + 0.2;
     if planar {
@@ -422,7 +425,7 @@ fn trace(a: &Matrix) -> f64 {
     a[0][0] + a[1][1] + a[2][2]
 }
 
-/// What the turns there are meet: eigenvalues of J' with their axes.
+/// The inertias of the possible turns: eigenvalues of J', with their axes.
 fn turns(j: &Matrix, planar: bool) -> Vec<(f64, Vector)> {
     if planar {
         return vec![(j[1][1], IDENTITY[1])];
@@ -431,7 +434,7 @@ fn turns(j: &Matrix, planar: bool) -> Vec<(f64, Vector)> {
     eigenvalues.into_iter().zip(vectors).collect()
 }
 
-/// The smallest eigenvalue, within the plane where there is one.
+/// The smallest eigenvalue of K; in the plane, that of its part in the plane.
 fn smallest(k: &Matrix, planar: bool) -> f64 {
     let mut k = *k;
     if planar {

@@ -7,14 +7,14 @@ use crate::description::quantity::Quantity;
 use crate::description::run::Run as Written;
 use crate::model::Run;
 
-/// Length of a run where none is given \[s\].
+/// Default length of a run \[s\].
 const DURATION: f64 = 1.0;
-/// Time between samples where none is given \[s\].
+/// Default time between samples \[s\].
 const EVERY: f64 = 0.01;
-/// Most samples of a run.
+/// Largest number of samples of a run.
 const MAX_SAMPLES: f64 = 1e6;
 
-/// The run; the defaults where nothing is said, or what is said is wrong.
+/// The checked form of a run, with defaults for missing and wrong values.
 pub(super) fn run(resolver: &Resolver<'_>, written: Option<&Written>, at: At<'_>) -> Run {
     let before = resolver.problems.count();
     let (duration, every) = match written {
@@ -47,7 +47,7 @@ pub(super) fn run(resolver: &Resolver<'_>, written: Option<&Written>, at: At<'_>
     Run { duration, every }
 }
 
-/// A time, positive \[s\]; `default` where none is given.
+/// A positive time \[s\]; `default` if none is written.
 pub(crate) fn time(
     resolver: &Resolver<'_>,
     quantity: Option<&Quantity>,

@@ -1,7 +1,7 @@
-//! The Rust file of a user force: that it is Rust, has the function, and uses what the model gives it.
+//! Checks the Rust file of a user force: it is Rust, has the function, and uses the ports that the model gives it.
 //!
-//! Types are the compiler's to check. What is found here is found without one, before anything is generated: syntax,
-//! the signature, names that the model does not declare and those that the file never uses.
+//! The compiler checks types. The checks here need no compiler, and run before any code is generated: syntax,
+//! signature, names that the model does not declare, and declared names that the file never uses.
 
 use crate::diagnostic::{nearest, quoted, suggestion};
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
@@ -13,51 +13,52 @@ use syn::{FnArg, GenericArgument, GenericParam, Item, ItemFn, Pat, PathArguments
 const MAX_BYTES: usize = 256 << 10;
 /// Deepest nesting of brackets.
 const MAX_DEPTH: usize = 128;
-/// Most signs in a row.
+/// Largest number of operator characters in a row.
 const MAX_SIGNS: usize = 64;
-/// Stack for the parser, which calls itself \[bytes\].
+/// Stack for the parser, which is recursive \[bytes\].
 const STACK: usize = 512 << 20;
 
-/// Names that the generated part of the module takes.
+/// Names that the generated part of the module uses.
 const TAKEN: [&str; 5] = ["Input", "Output", "input", "output", "scalars"];
 
-/// What a file is checked against.
+/// The properties that a file must have.
 pub struct Wanted<'a> {
-    /// Name of the file as shown.
+    /// Name of the file in messages.
     pub file: &'a str,
     /// Name of the force.
     pub force: &'a str,
-    /// The function.
+    /// Name of the function.
     pub function: &'a str,
-    /// Names by the field of `Input` that holds them ("points"), as identifiers.
+    /// The declared names, as identifiers, by the field of `Input` that holds them ("points").
     pub names: &'a [(&'static str, Vec<String>)],
 }
 
-/// Something wrong.
+/// A problem in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Where.
+    /// The place of the problem.
     pub place: Place,
-    /// What.
+    /// The problem in words.
     pub message: String,
-    /// Remedy.
+    /// A remedy.
     pub help: String,
 }
 
-/// Where something is wrong.
+/// The place of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Place {
-    /// In the file: line and column from 1, length in characters.
+    /// In the file: line and column, both from 1, and length in characters.
     File(usize, usize, usize),
-    /// In the model: what says which function it is.
+    /// In the model: the key that names the function.
     Function,
-    /// In the model: the entry of this kind and index.
+    /// In the model: the entry of this kind, with this index.
     Name(&'static str, usize),
 }
 
-/// What is wrong with a file.
+/// The problems of a file.
 pub fn faults(text: &str, wanted: &Wanted<'_>) -> Vec<Fault> {
-    // Positions are kept per thread, and the parser calls itself for every bracket.
+    // A thread of its own: it gets a large stack, as the parser is recursive, and its source positions are freed with
+    // it.
     std::thread::scope(|scope| {
         std::thread::Builder::new()
             .stack_size(STACK)
@@ -158,7 +159,7 @@ impl Source {
         faults
     }
 
-    /// Items that cannot stand in the module.
+    /// Reports items that the module must not contain.
     fn items(&self, faults: &mut Vec<Fault>) {
         for item in &self.items {
             let ident = match item {
@@ -168,7 +169,7 @@ impl Source {
                 Item::Type(item) => &item.ident,
                 Item::Trait(item) => &item.ident,
                 Item::Mod(item) => &item.ident,
-                // types and functions have names apart
+                // functions have a namespace apart from types
                 Item::Fn(item) if item.sig.ident == "scalars" => &item.sig.ident,
                 _ => continue,
             };
@@ -221,7 +222,7 @@ impl Source {
         found
     }
 
-    /// Names of the model that the file never mentions.
+    /// Names in the model that the file never mentions.
     fn unused(&self, wanted: &Wanted<'_>) -> Vec<Fault> {
         let mut mentioned = HashSet::new();
         for_each_token(&self.tokens, &mut |token| {
@@ -250,7 +251,7 @@ impl Source {
     }
 }
 
-/// Whether a function is `fn name<T: Real>(input: &Input<T>) -> Output<T>`.
+/// True if a function has the signature `fn name<T: Real>(input: &Input<T>) -> Output<T>`.
 fn fits(function: &ItemFn) -> bool {
     let signature = &function.sig;
     let plain = signature.asyncness.is_none()
@@ -287,7 +288,7 @@ fn fits(function: &ItemFn) -> bool {
     plain && real && input && output
 }
 
-/// Whether a type is `name<scalar>`, by whatever path.
+/// True if a type is `name<scalar>`, with any path.
 fn is_of(of: &Type, name: &str, scalar: &syn::Ident) -> bool {
     let Type::Path(path) = of else { return false };
     let Some(last) = path.path.segments.last() else {
@@ -305,7 +306,7 @@ fn is_of(of: &Type, name: &str, scalar: &syn::Ident) -> bool {
     last.ident == name && argument.path.is_ident(scalar)
 }
 
-/// Names that the function asks of its input, or gives its output, and that the model does not declare.
+/// Names that the function reads from its input, or sets in its output, and that the model does not declare.
 fn undeclared(function: &ItemFn, wanted: &Wanted<'_>) -> Vec<Fault> {
     let mut tokens = Vec::new();
     for_each_token(&function.to_token_stream(), &mut |token| {
@@ -360,13 +361,14 @@ fn undeclared(function: &ItemFn, wanted: &Wanted<'_>) -> Vec<Fault> {
     faults
 }
 
-/// Where a token stands.
+/// The place of a token.
 fn place(span: Span, length: usize) -> Place {
     let start = span.start();
     Place::File(start.line.max(1), start.column + 1, length.max(1))
 }
 
-/// All tokens in the order of the text, groups taken apart; without calling itself, however deep they are.
+/// Visits all tokens in the order of the text, including those within groups. It is not recursive, so nesting may be
+/// deep.
 fn for_each_token(tokens: &TokenStream, visit: &mut dyn FnMut(&TokenTree)) {
     let mut open = vec![tokens.clone().into_iter()];
     while let Some(current) = open.last_mut() {
@@ -380,7 +382,7 @@ fn for_each_token(tokens: &TokenStream, visit: &mut dyn FnMut(&TokenTree)) {
     }
 }
 
-/// Where brackets are nested too deep or too many signs follow one another.
+/// The place where brackets are nested too deep, or too many operator characters follow one another.
 fn too_deep(tokens: &TokenStream) -> Option<Span> {
     let mut open = vec![tokens.clone().into_iter()];
     let mut signs = 0;

@@ -1,5 +1,5 @@
-//! Switches: names first, because forces wait for them; what makes them fire once the forces are known, because it may be
-//! a force.
+//! Switches are resolved in two steps: names come first, because forces wait for switches; triggers come after the
+//! forces, because a trigger may observe a force.
 
 use super::Resolver;
 use super::name::Style;
@@ -59,7 +59,7 @@ pub(super) fn switches(resolver: &Resolver<'_>, loaded: &Loaded) -> Vec<Option<S
     all
 }
 
-/// When a force acts.
+/// The time during which a force acts.
 pub(super) fn active(
     resolver: &Resolver<'_>,
     since: Option<&str>,
@@ -94,7 +94,8 @@ fn switch(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Swit
     Some(switch)
 }
 
-/// What makes a switch fire: a time, or a quantity and its threshold; and the unit that this is written in, with its SI value.
+/// The trigger of a switch: a time, or a quantity and its threshold. Also the unit in which the time or threshold is
+/// written, with its SI value.
 fn trigger(
     resolver: &Resolver<'_>,
     written: &WrittenTrigger,
@@ -171,7 +172,7 @@ fn trigger(
     Some((trigger, shown))
 }
 
-/// The unit of a number with its unit, and its SI value.
+/// The unit of a written number, and its SI value.
 fn written_in(quantity: &Quantity) -> Option<(String, f64)> {
     let Quantity::Text(text) = quantity else {
         return None;

@@ -1,4 +1,4 @@
-//! Systems: their elements, what their reference joints do, where they start.
+//! Systems: their elements, the motion of their reference joints, and their state at the start.
 
 use super::channel::{Anatomy as BodyAxes, BodyPart};
 use super::element::tree;
@@ -18,17 +18,17 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::joint::{freedoms_at_start, start_followers};
 use crate::model::{Element, Joint, Number, Reference, System};
 
-/// A system with all that the files say of it: where it is described, then where that is changed.
+/// Everything that the files say about a system: its description, and then changes of it.
 struct Entry<'w> {
     written: &'w Written,
     at: At<'w>,
     reference: Option<(&'w WrittenReference, At<'w>)>,
-    /// In the order of the files: what a later one says holds.
+    /// In the order of the files; a later one overrides an earlier one.
     starts: Vec<(&'w Start, At<'w>)>,
 }
 
 impl<'w> Entry<'w> {
-    /// The start that says something of a key, the last one where several do.
+    /// The place of the last start that has this key.
     fn start_with(&self, key: &str) -> Option<At<'w>> {
         let mut starts = self.starts.iter().rev().map(|(_, at)| *at);
         starts.find(|at| at.node.get(key).is_some())
@@ -61,7 +61,7 @@ pub(super) fn systems(resolver: &mut Resolver<'_>, loaded: &Loaded) {
     resolver.too_many_elements(last.source.at());
 }
 
-/// Enters which axes of the elements of a system are forward and up, and which heads have the neck in them.
+/// Enters the axes of each element that are forward and up, and the heads that include the neck.
 fn parts(resolver: &mut Resolver<'_>, entry: &Entry<'_>) {
     let planar = resolver.planar;
     let read = |resolver: &Resolver<'_>, written: Option<&Anatomy>, at: At<'_>| {
@@ -90,7 +90,7 @@ fn parts(resolver: &mut Resolver<'_>, entry: &Entry<'_>) {
     }
 }
 
-/// Adds a system, or what a file says of a system that an included file describes.
+/// Adds a system, or changes of a system that an included file describes.
 fn collect<'w>(
     resolver: &Resolver<'_>,
     entries: &mut Vec<Entry<'w>>,
@@ -191,7 +191,7 @@ fn system(resolver: &mut Resolver<'_>, entry: &Entry<'_>) -> System {
     system
 }
 
-/// Enters where a system starts.
+/// Sets the state of a system at the start.
 fn begin(resolver: &Resolver<'_>, system: &mut System, start: &Start, at: At<'_>) {
     if let Some(position) = &start.position {
         system.position = resolver.vector(position, at.key("position"), LENGTH);
@@ -231,7 +231,7 @@ fn begin(resolver: &Resolver<'_>, system: &mut System, start: &Start, at: At<'_>
     }
 }
 
-/// Whether an element has an orientation of its own; else it is reported that it has not.
+/// True if an element has an orientation of its own; otherwise reports it.
 fn is_ball(
     resolver: &Resolver<'_>,
     system: &System,
@@ -256,7 +256,7 @@ fn is_ball(
     ball
 }
 
-/// Entries whose keys are elements; those that are not are reported.
+/// Entries whose keys are the names of elements; reports other keys.
 fn per_element<'w>(
     resolver: &Resolver<'_>,
     system: &System,
@@ -285,7 +285,7 @@ fn per_element<'w>(
     found
 }
 
-/// A reference joint moved as given; fixed where it never moves.
+/// A reference joint with a prescribed motion; a fixed one if it never moves.
 fn prescribed(
     resolver: &mut Resolver<'_>,
     written: &Prescribed,
@@ -318,7 +318,7 @@ fn prescribed(
     }
 }
 
-/// A reference joint that moves with a vehicle, which says where it starts and how fast.
+/// A reference joint that moves with a vehicle, which determines its position and velocity at the start.
 fn riding(
     resolver: &mut Resolver<'_>,
     written: &Riding,

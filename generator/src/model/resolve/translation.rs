@@ -1,7 +1,7 @@
-//! Given translations: of reference joints and of vehicles, by displacement, velocity or acceleration.
+//! Prescribed translations of reference joints and vehicles, by displacement, velocity or acceleration.
 //!
-//! What a curve says of the start, the start must not say otherwise: a displacement is measured from the start position, and
-//! its slope is the velocity there; a velocity begins as its curve does.
+//! The start must not contradict a curve: a displacement is measured from the start position, and its slope at the
+//! start is the start velocity; a velocity curve begins with the start velocity.
 
 use super::Resolver;
 use super::quantity::{ACCELERATION, LENGTH, SPEED};
@@ -10,23 +10,23 @@ use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::{FieldComponent, Given, Interpolate, Number, ScaledCurve, Translation};
 
-/// How far two statements of one velocity may differ, relatively: numbers are written with a few digits.
+/// Largest relative difference of two values of the same velocity: numbers are written with a few digits.
 const SAME: f64 = 1e-9;
 
-/// A translation as written: at most one of the three.
+/// A translation as written: at most one of the three quantities.
 pub struct Ways<'w> {
-    /// From the start.
+    /// Displacement from the start.
     pub displacement: Option<&'w [Function]>,
-    /// Its first derivative.
+    /// Velocity.
     pub velocity: Option<&'w [Function]>,
-    /// Its second derivative.
+    /// Acceleration.
     pub acceleration: Option<&'w [Function]>,
-    /// Whether it stays as soon as its velocity is 0.
+    /// True if the body stays where it is as soon as its velocity is 0.
     pub stops: Option<bool>,
 }
 
 impl Ways<'_> {
-    /// The one that is written, with its key; `None` where there is none.
+    /// The quantity that is written, with its key; `None` if there is none.
     fn written(&self) -> Option<(&'static str, Given, &[Function])> {
         let all = [
             ("displacement", Given::Displacement, self.displacement),
@@ -39,7 +39,7 @@ impl Ways<'_> {
         written.next()
     }
 
-    /// How many are written.
+    /// Number of quantities that are written.
     pub fn count(&self) -> usize {
         [self.displacement, self.velocity, self.acceleration]
             .iter()
@@ -48,8 +48,8 @@ impl Ways<'_> {
     }
 }
 
-/// The translation that is written at `at`. `velocity` is that of the start, written at `start` if at all; it becomes
-/// the part of the velocity that no curve says.
+/// The translation that is written at `at`. `velocity` is the start velocity, which is written at `start`, if at all;
+/// the part of it that curves determine is removed.
 pub(super) fn translation(
     resolver: &mut Resolver<'_>,
     ways: &Ways<'_>,
@@ -119,7 +119,7 @@ pub(super) fn translation(
     }
 }
 
-/// The curve of the motion along an axis, if it has one. `velocity` becomes the part of the velocity that no curve says.
+/// The curve of the motion along an axis, if there is one. The part of `velocity` that the curve determines is removed.
 fn along_axis(
     resolver: &mut Resolver<'_>,
     component: FieldComponent,
@@ -145,7 +145,7 @@ fn along_axis(
     }
 }
 
-/// The velocity with which a displacement begins, if it is one.
+/// The start velocity that follows from a displacement; `None` if the curve is no displacement.
 fn begin_displaced(resolver: &Resolver<'_>, component: &FieldComponent, at: At<'_>) -> Option<f64> {
     let curve = match component {
         FieldComponent::Curve(curve) => curve,
@@ -192,7 +192,7 @@ fn begin_displaced(resolver: &Resolver<'_>, component: &FieldComponent, at: At<'
     Some(times / stretch * points.slope(0.0))
 }
 
-/// Whether a curve has a slope everywhere; reported where not, with what else could be given.
+/// True if a curve has a slope everywhere; otherwise reports it, with an alternative.
 pub(super) fn is_smooth(
     resolver: &Resolver<'_>,
     curve: &ScaledCurve,
@@ -216,7 +216,7 @@ pub(super) fn is_smooth(
     smooth
 }
 
-/// The value of a component at t = 0; `None` where it has none.
+/// The value of a component at t = 0; `None` if the curve has no value there.
 fn value_at_start(resolver: &Resolver<'_>, component: &FieldComponent) -> Option<f64> {
     match component {
         FieldComponent::Constant(number) => Some(number.value(&resolver.defaults)),
@@ -227,11 +227,11 @@ fn value_at_start(resolver: &Resolver<'_>, component: &FieldComponent) -> Option
     }
 }
 
-/// Reports a start velocity that is not the one with which the given motion begins.
+/// Reports a start velocity that differs from the one with which the prescribed motion begins.
 fn check_start(resolver: &Resolver<'_>, begins: f64, velocity: &Number, key: &str, at: At<'_>) {
     let value = velocity.value(&resolver.defaults);
     let largest = begins.abs().max(value.abs());
-    // a curve without a value at the start is no contradiction
+    // false for NaN: a curve without a value at the start is no contradiction
     if (value - begins).abs() > SAME * largest {
         resolver.problems.add(at.problem(
             format!(

@@ -6,10 +6,10 @@ use crate::description::unit::{Dimension, product, unit};
 use crate::diagnostic::quoted;
 use crate::model::units::Unit;
 
-/// Standard gravity, as the unit of an acceleration.
+/// The name of standard gravity as a unit of acceleration.
 const GRAVITY: &str = "g";
 
-/// Enters the unit of an output, whose SI unit is `si`; reported where it is none, or one of another quantity.
+/// Enters the unit of an output, whose SI unit is `si`; reports an unknown unit, or one of another quantity.
 pub(super) fn unit_shown(
     resolver: &mut Resolver<'_>,
     written: &str,
@@ -20,7 +20,7 @@ pub(super) fn unit_shown(
     let text = written.trim().replace('\u{b0}', "deg");
     let of_output = product(si).map_or(Dimension::ONE, |unit| unit.dimension);
     let acceleration = Dimension::new(1, 0, -2, 0);
-    // of an acceleration, g is no gram
+    // for an acceleration, `g` is standard gravity, not the gram
     let found = match text.as_str() {
         GRAVITY | "gn" if of_output == acceleration => unit("gn"),
         text => product(text),
@@ -34,7 +34,7 @@ pub(super) fn unit_shown(
         resolver.problems.add(problem);
         return;
     };
-    // Of a rotation, 1/s or Hz would be turns for some readers and radians for others.
+    // For a rotation, readers might take 1/s or Hz for turns or for radians.
     if found.dimension != of_output || found.dimension.radians() != of_output.radians() {
         let message = format!("the output cannot be shown in {}", quoted(written));
         resolver.problems.add(at.problem(message, help));

@@ -1,4 +1,4 @@
-//! Vehicles: bodies whose motion is given, and what rides on them.
+//! Vehicles: bodies with prescribed motion, and the reference joints that ride on them.
 
 use super::name::Style;
 use super::quantity::{ANGLE, LENGTH, SPEED};
@@ -9,8 +9,8 @@ use crate::description::vehicle::Vehicle as Written;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{FieldComponent, Number, Vehicle};
 
-/// The checked form of a vehicle; `None` where there is one of its name. One that is wrong is returned too, so that its uses are
-/// not reported as well.
+/// The checked form of a vehicle; `None` if there is another of the same name. A wrong vehicle is returned too, so that
+/// its uses are not reported as well.
 pub(super) fn vehicle(
     resolver: &mut Resolver<'_>,
     written: &Written,
@@ -70,7 +70,7 @@ pub(super) fn vehicle(
     Some(vehicle)
 }
 
-/// An angle at t = 0, of a curve that turns without jumps; 0 where that is reported.
+/// An angle at t = 0. Its curve must have a slope everywhere. 0 after a reported problem.
 fn angle_at_start(resolver: &Resolver<'_>, angle: &FieldComponent, at: At<'_>) -> Number {
     let curve = match angle {
         FieldComponent::Constant(number) => return number.clone(),
@@ -93,7 +93,7 @@ fn angle_at_start(resolver: &Resolver<'_>, angle: &FieldComponent, at: At<'_>) -
     Number::product(curve.times.clone(), value.into())
 }
 
-/// The vehicle of a name; reported where there is none.
+/// Index of the vehicle with this name; reports if there is none.
 pub(super) fn vehicle_named(resolver: &Resolver<'_>, name: &str, at: At<'_>) -> Option<usize> {
     let found = resolver.vehicles.iter().position(|v| v.name == name);
     if found.is_none() {
@@ -106,7 +106,7 @@ pub(super) fn vehicle_named(resolver: &Resolver<'_>, name: &str, at: At<'_>) -> 
     found
 }
 
-/// Where a point of a vehicle is at t = 0, absolute frame.
+/// The position of a point of a vehicle at t = 0, absolute frame.
 pub(super) fn ridden_at_start(
     resolver: &Resolver<'_>,
     vehicle: usize,
@@ -117,7 +117,7 @@ pub(super) fn ridden_at_start(
     std::array::from_fn(|i| Number::sum(vehicle.position[i].clone(), turned[i].clone()))
 }
 
-/// Rx(φ₁) Ry(φ₂) Rz(φ₃) v, from the right.
+/// Rx(φ₁) Ry(φ₂) Rz(φ₃) v, computed from right to left.
 fn turned(angles: &[Number; 3], v: &[Number; 3]) -> [Number; 3] {
     let mut v = v.clone();
     for axis in [2, 1, 0] {
@@ -125,7 +125,7 @@ fn turned(angles: &[Number; 3], v: &[Number; 3]) -> [Number; 3] {
             Number::sine(angles[axis].clone()),
             Number::cosine(angles[axis].clone()),
         );
-        // (a, b) → (a c − b s, a s + b c), a and b being the two axes that follow this one
+        // (a, b) → (a c − b s, a s + b c), where a and b are the components along the two axes that follow `axis`
         let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
         let part = |x: &Number, factor: &Number| Number::product(x.clone(), factor.clone());
         (v[a], v[b]) = (

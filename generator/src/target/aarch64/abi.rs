@@ -1,20 +1,22 @@
-//! The calling convention: functions and those that they call are `extern "C"`, by the Procedure Call Standard for the Arm 64-bit Architecture
-//! (AAPCS64).
+//! The calling convention: the emitted functions, and the functions that they call, are `extern "C"`, by the Procedure
+//! Call Standard for the Arm 64-bit Architecture (AAPCS64).
 //!
-//! Each pointer that a function needs has a general register of its own, and so have the constants. Which ones are needed, and which registers must be
-//! saved, is known when the code is finished, so beginning and end are written last.
+//! Each pointer that a function needs has a general register of its own, and so has the address of the constants. Which
+//! pointers are needed, and which registers must be saved, is known only when the code is finished, so the beginning
+//! and the end of a function are written last.
 
 use super::encode::{Encoder, General, LINK, SP};
 use crate::target::machine::Base;
 use crate::target::machine::emit::At;
 use crate::target::machine::operation::Vector;
 
-/// The argument of the function: the address of the struct of pointers. Also the first argument of functions that are called.
+/// The argument of the function: the address of the struct of pointers. In a call, the same register holds the first
+/// argument.
 const POINTERS: General = General(0);
-/// The second and third argument of functions that are called.
+/// Registers of the second and third argument of functions that are called.
 const ARGUMENTS: General = General(1);
 const RESULTS: General = General(2);
-/// Hold numbers for a few instructions. A caller must expect that a call changes them.
+/// Two registers that hold numbers for a few instructions. A caller must expect that a call changes them.
 pub(super) const SCRATCH: General = General(16);
 const OTHER_SCRATCH: General = General(17);
 const FRAME_POINTER: General = General(29);
@@ -23,15 +25,15 @@ const FIRST_KEPT: u8 = 19;
 /// The vector registers whose lower halves a function must restore: v8 to v15.
 pub(super) const KEPT_VECTORS: u32 = 0xff00;
 
-/// Where the pointers are while the function runs.
+/// The registers that hold the pointers to regions of memory while the function runs.
 pub(super) struct Bases {
-    /// Whether functions are called, so that pointers are in registers that these preserve.
+    /// True if the function calls others. The pointers are then in registers that calls preserve.
     calls: bool,
-    /// A bit for each register of a pointer that is used; the last one is that of the constants.
+    /// A bit for each pointer that is used, by its index; the last bit is that of the constants.
     used: u32,
 }
 
-/// The bit of the constants.
+/// Index of the bit of the constants in [`Bases::used`], and of their register.
 const CONSTANTS: u8 = Base::ALL.len() as u8;
 
 impl Bases {
@@ -70,7 +72,7 @@ impl Bases {
         (general, vectors.collect())
     }
 
-    /// Saves registers that must be restored, or restores them.
+    /// Saves the registers that must be restored, or restores them.
     fn save(&self, encoder: &mut Encoder, written: u32, restore: bool) {
         let (general, vectors) = self.saved(written);
         let bytes = 16 * (general.len() + vectors.len()) as u32;
@@ -93,8 +95,9 @@ impl Bases {
         }
     }
 
-    /// The beginning of a function that writes these vector registers. `constants` is the distance in bytes from the end of the beginning to the
-    /// constants; `far` says whether it may be 2²⁰ or more. The number of instructions does not depend on the distance.
+    /// Writes the beginning of a function that changes the vector registers in `written`. `constants` is the distance
+    /// in bytes from the end of the beginning to the constants; `far` says whether the distance may be 2²⁰ or more. The
+    /// number of instructions does not depend on the distance.
     pub fn enter(&self, encoder: &mut Encoder, written: u32, constants: u32, far: bool) {
         self.save(encoder, written, false);
         if self.calls {
@@ -120,7 +123,7 @@ impl Bases {
         }
         let register = self.register(CONSTANTS);
         if far {
-            // from ADR to the end of the beginning: ADR, MOVZ, MOVK, ADD
+            // the distance counts from ADR: ADR, MOVZ, MOVK and ADD lie between it and the end of the beginning
             encoder.address(register, 0);
             encoder.wide(SCRATCH, constants + 16);
             encoder.sum(register, register, SCRATCH);
@@ -129,13 +132,13 @@ impl Bases {
         }
     }
 
-    /// The end of a function that writes these vector registers.
+    /// Writes the end of a function that changes the vector registers in `written`.
     pub fn leave(&self, encoder: &mut Encoder, written: u32) {
         self.save(encoder, written, true);
         encoder.ret();
     }
 
-    /// Writes a call of a function of the table.
+    /// Writes a call of the function with this index in the table.
     pub fn call(&mut self, encoder: &mut Encoder, index: u32, arguments: At, results: At) {
         for (register, (base, offset)) in [(ARGUMENTS, arguments), (RESULTS, results)] {
             let base = self.base(base);
@@ -143,7 +146,7 @@ impl Bases {
         }
         let mut table = self.base(Base::Functions);
         let mut entry = 16 * index;
-        // the largest offset of a pair is 504
+        // the largest offset of a load of two registers is 504
         if entry > 504 {
             encoder.add(OTHER_SCRATCH, table, entry, SCRATCH);
             (table, entry) = (OTHER_SCRATCH, 0);
@@ -152,7 +155,8 @@ impl Bases {
         encoder.call(SCRATCH);
     }
 
-    /// The same in a part that is itself called: its return address is saved.
+    /// Writes a call like [`call`](Self::call) within a part that is itself called: the return address of the part is
+    /// saved.
     pub fn call_from_part(
         &mut self,
         encoder: &mut Encoder,

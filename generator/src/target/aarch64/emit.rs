@@ -16,9 +16,9 @@ use crate::target::machine::steps::{Kind, Origin, Step};
 pub(super) struct Arm {
     pub encoder: Encoder,
     bases: Bases,
-    /// The two values that the condition flags compare, of scalars.
+    /// The two values of the last comparison of scalars, if the condition flags still hold its result.
     compared: Option<[u32; 2]>,
-    /// The index at which the end of the function belongs.
+    /// The index of the instruction before which the end of the function belongs.
     end: usize,
 }
 
@@ -89,7 +89,7 @@ impl Processor for Arm {
     }
 
     fn jump_if_rare(emitter: &mut Emitter<'_, Self>, size: Vector, limit: u32, keep: Set) -> Jump {
-        // what the branch leads to calls a function
+        // the code behind the branch calls a function, which changes the flags
         emitter.processor.compared = None;
         let Form { lanes, precision } = form(emitter.shape);
         if !lanes && emitter.is_zero(limit) {
@@ -224,14 +224,16 @@ impl Processor for Arm {
     }
 }
 
-/// Conditional branches and the address of the constants reach nearly as far, in bytes.
+/// A distance in bytes that conditional branches and the instruction for the address of the constants can reach; their
+/// exact limit is a little farther.
 const NEAR: usize = 1 << 20;
-/// BRK, which is never executed.
+/// BRK: fills the bytes between code and constants, and is never executed.
 const BREAKPOINT: u32 = 0xd420_0000;
 
 impl Arm {
-    /// All instructions behind the beginning, without those that are gone, and with the end of the function where it belongs. If the code is long,
-    /// a conditional branch becomes one that skips a longer branch.
+    /// All instructions after the beginning of the function, without those in `gone`, and with the end of the function
+    /// in its place. If the code is long, a conditional branch becomes the opposite branch, which skips an
+    /// unconditional one.
     fn body(&self, gone: &[bool], end: &[Instruction], far: bool) -> Vec<u32> {
         let instructions = &self.encoder.instructions;
         let mut code: Vec<u32> = Vec::with_capacity(instructions.len() + end.len());
@@ -273,12 +275,12 @@ impl Emitter<'_, Arm> {
         form(self.shape)
     }
 
-    /// Whether a value is the constant 0 or −0.
+    /// True if a value is the constant 0 or −0.
     fn is_zero(&self, value: u32) -> bool {
         self.steps.origins[value as usize] == Origin::Constant(0.0)
     }
 
-    /// Whether a value is a constant with these bits.
+    /// True if a value is a constant with these bits.
     fn is_constant(&self, value: u32, bits: u64) -> bool {
         match self.steps.origins[value as usize] {
             Origin::Constant(number) => number.to_bits() == bits,
@@ -292,12 +294,12 @@ impl Emitter<'_, Arm> {
         registers.fold(Set::default(), Set::with)
     }
 
-    /// The registers of these values, all at the same time.
+    /// Loads these values, so that all are in registers at the same time, and returns the registers.
     fn all_loaded<const N: usize>(&mut self, values: [u32; N]) -> [Vector; N] {
         self.loaded_beside(values, Set::default())
     }
 
-    /// The same, while others are kept.
+    /// Like [`all_loaded`](Self::all_loaded), without overwriting the registers in `keep`.
     fn loaded_beside<const N: usize>(&mut self, values: [u32; N], keep: Set) -> [Vector; N] {
         let mut keep = keep.and(self.present(&values));
         values.map(|value| {
@@ -355,7 +357,8 @@ impl Emitter<'_, Arm> {
         self.define(defines, result);
     }
 
-    /// ±(a · b) ± c of lanes. The instruction overwrites the addend, so this must be a copy, or no longer needed.
+    /// ±(a · b) ± c of lanes. The instruction overwrites the addend c, so it works on a copy of c unless c is no longer
+    /// needed.
     fn accumulate(&mut self, signs: Signs, operands: [u32; 3], defines: u32) {
         let [a, b, c] = self.all_loaded(operands);
         let overwritten = self.after(2) == NEVER && !(signs.addend && (c == a || c == b));
@@ -375,7 +378,7 @@ impl Emitter<'_, Arm> {
         self.define(defines, sum);
     }
 
-    /// The larger or smaller one of two; the second one where either is NaN.
+    /// The larger or the smaller of two values; the second one if either is NaN.
     fn extreme(&mut self, operation: Binary, [a, b]: [u32; 2], defines: u32) {
         let below = match operation {
             Binary::Max => [b, a],
@@ -384,7 +387,7 @@ impl Emitter<'_, Arm> {
         self.select(below, [a, b], defines);
     }
 
-    /// The first of two values where a < b, the second one elsewhere.
+    /// The first of the two `chosen` values where a < b, the second one elsewhere.
     fn select(&mut self, [a, b]: [u32; 2], chosen: [u32; 2], defines: u32) {
         let keep = self.present(&[a, b, chosen[0], chosen[1]]);
         let precision = self.shape.precision;
@@ -407,7 +410,8 @@ impl Emitter<'_, Arm> {
         self.define(defines, result);
     }
 
-    /// Sets the condition flags, unless they are so already; returns the condition that says whether a < b.
+    /// Compares a and b, unless the condition flags already hold that comparison. Returns the condition that is true if
+    /// a < b.
     fn compare(&mut self, [a, b]: [u32; 2], keep: Set) -> Condition {
         let precision = self.shape.precision;
         let compared = self.processor.compared;

@@ -15,10 +15,10 @@ pub const SP: General = General(31);
 /// The register with the return address.
 pub const LINK: General = General(30);
 
-/// What an instruction on numbers works on.
+/// The operands of an instruction on numbers: scalars or vectors, of doubles or singles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Form {
-    /// All lanes of 16 bytes, instead of one number.
+    /// True for all lanes of a register of 16 bytes, false for one number.
     pub lanes: bool,
     /// Doubles or singles.
     pub precision: Precision,
@@ -47,7 +47,7 @@ impl Size {
 }
 
 impl Form {
-    /// What is moved between a register and memory.
+    /// The size of a load or store of this form.
     pub const fn size(self) -> Size {
         match (self.lanes, self.precision) {
             (true, _) => Size::Q,
@@ -83,25 +83,25 @@ pub struct Access {
     pub size: Size,
     /// The register with the address.
     pub base: General,
-    /// The offset in units of the size, at most [`Encoder::FARTHEST`].
+    /// The offset in units of `size`, at most [`Encoder::FARTHEST`].
     pub offset: u32,
     /// The vector register.
     pub vector: Vector,
 }
 
-/// An instruction, as far as others may be moved over it.
+/// What an instruction reads and writes. It decides whether a load or store may be moved past the instruction.
 #[derive(Clone, Copy, Debug)]
 pub enum Effect {
-    /// It reads and writes these vector registers, and the condition flags, but no memory.
+    /// The instruction reads and writes these vector registers and the condition flags, but no memory.
     Numbers {
-        /// A bit for each register that it reads.
+        /// A bit for each vector register that is read.
         reads: u32,
-        /// A bit for each register that it writes.
+        /// A bit for each vector register that is written.
         writes: u32,
     },
     /// A move to or from memory.
     Access(Access),
-    /// Two of them in one instruction.
+    /// Two loads or two stores in one instruction.
     Pair([Access; 2]),
     /// Anything else.
     Other,
@@ -110,7 +110,7 @@ pub enum Effect {
 /// An instruction with its effect.
 #[derive(Clone, Copy, Debug)]
 pub struct Instruction {
-    /// The instruction; of a branch without its distance.
+    /// The instruction word. The distance of a branch is still 0.
     pub word: u32,
     /// What it does.
     pub effect: Effect,
@@ -119,9 +119,9 @@ pub struct Instruction {
 /// A branch: the index of its instruction, and that of its target.
 #[derive(Clone, Copy, Debug)]
 pub struct Branch {
-    /// Index of the branch.
+    /// Index of the branch instruction.
     pub at: usize,
-    /// Index of the instruction that it goes to.
+    /// Index of the instruction that the branch goes to.
     pub to: usize,
 }
 
@@ -132,23 +132,23 @@ pub struct Encoder {
     pub instructions: Vec<Instruction>,
     /// All branches.
     pub branches: Vec<Branch>,
-    /// A bit for each vector register that is written.
+    /// A bit for each vector register that the code writes.
     pub written: u32,
 }
 
-/// A bit for a vector register.
+/// The bit of a vector register in a set.
 fn bit(vector: Vector) -> u32 {
     1 << vector.0
 }
 
-/// The bits of the instructions of three operands: FADD, FMUL, … as scalars (C7.2) and as vectors.
+/// The words of FADD, FMUL, … without operands, for scalars (C7.2) and for vectors.
 const fn binary(operation: Binary) -> [u32; 2] {
     match operation {
         Binary::Add => [0x1e20_2800, 0x4e20_d400],
         Binary::Sub => [0x1e20_3800, 0x4ea0_d400],
         Binary::Mul => [0x1e20_0800, 0x6e20_dc00],
         Binary::Div => [0x1e20_1800, 0x6e20_fc00],
-        // more than one instruction
+        // these take more than one instruction
         Binary::Max | Binary::Min => unreachable!(),
     }
 }
@@ -208,7 +208,7 @@ impl Encoder {
         let n = u32::from(source.0);
         let double = form.double() << 22;
         let word = match (form.lanes, operation) {
-            // ORR with itself
+            // ORR of a register with itself
             (true, Unary::Copy) => 0x4ea0_1c00 | n << 16,
             (true, Unary::Abs) => 0x4ea0_f800 | double,
             (true, Unary::Neg) => 0x6ea0_f800 | double,
@@ -221,7 +221,7 @@ impl Encoder {
         self.numbers(word | n << 5, destination, bit(source));
     }
 
-    /// destination = ±(a · b) ± c, rounded once: FMADD, FMSUB, FNMADD, FNMSUB. Of scalars only.
+    /// destination = ±(a · b) ± c, rounded once, for scalars only: FMADD, FMSUB, FNMADD, FNMSUB
     pub fn fused(
         &mut self,
         precision: Precision,
@@ -229,7 +229,7 @@ impl Encoder {
         destination: Vector,
         [a, b, c]: [Vector; 3],
     ) {
-        // the names mean: −c − a · b for FNMADD, −c + a · b for FNMSUB
+        // FNMADD computes −c − a · b, FNMSUB computes −c + a · b
         let word = match (signs.product, signs.addend) {
             (false, false) => 0x1f00_0000,
             (true, false) => 0x1f00_8000,
@@ -328,7 +328,7 @@ impl Encoder {
         self.numbers(0x6e60_1c00 | operands, mask, reads);
     }
 
-    /// The smallest of the four words of a register, in the first word of the destination: UMINV
+    /// The first word of the destination = the smallest of the four words of the source: UMINV
     pub fn smallest_word(&mut self, destination: Vector, source: Vector) {
         let operands = u32::from(source.0) << 5;
         self.numbers(0x6eb1_a800 | operands, destination, bit(source));
@@ -358,7 +358,7 @@ impl Encoder {
         self.push(encode_access(access), Effect::Access(access));
     }
 
-    /// The same with the offset in a register, in bytes: LDR, STR (register).
+    /// Like [`access`](Self::access), with the offset in a register, in bytes: LDR, STR (register).
     pub fn access_at(
         &mut self,
         store: bool,
@@ -379,18 +379,18 @@ impl Encoder {
         self.other(word | u32::from(!store) << 22 | operands);
     }
 
-    /// Two doubles are moved to or from memory, at a multiple of 8: LDP, STP
+    /// Moves two doubles to or from memory; `offset` is a multiple of 8: LDP, STP
     pub fn access_pair(&mut self, store: bool, base: General, offset: u32, vectors: [Vector; 2]) {
         self.other(encode_pair(store, Size::D, base, offset / 8, vectors));
     }
 
-    /// Two general registers are moved to or from memory, at a multiple of 8 up to 504: LDP, STP
+    /// Moves two general registers to or from memory; `offset` is a multiple of 8, at most 504: LDP, STP
     pub fn general_pair(&mut self, store: bool, base: General, offset: u32, pair: [General; 2]) {
         let operands = u32::from(pair[1].0) << 10 | u32::from(base.0) << 5 | u32::from(pair[0].0);
         self.other(0xa900_0000 | u32::from(!store) << 22 | (offset / 8) << 15 | operands);
     }
 
-    /// A general register is moved to or from memory, at a multiple of 8 up to 32760: LDR, STR
+    /// Moves a general register to or from memory; `offset` is a multiple of 8, at most 32760: LDR, STR
     pub fn general(&mut self, store: bool, base: General, offset: u32, register: General) {
         let operands = u32::from(base.0) << 5 | u32::from(register.0);
         self.other(0xf900_0000 | u32::from(!store) << 22 | (offset / 8) << 10 | operands);
@@ -406,7 +406,8 @@ impl Encoder {
         self.other(0x9100_03ff | bytes << 10);
     }
 
-    /// destination = source + offset: ADD, several if need be. If the offset has more than 24 bits, the scratch register is changed.
+    /// destination = source + offset: one or several ADD. If the offset has more than 24 bits, the scratch register is
+    /// changed.
     pub fn add(&mut self, destination: General, source: General, offset: u32, scratch: General) {
         let operands = |source: General| u32::from(source.0) << 5 | u32::from(destination.0);
         let (low, high) = (offset & 0xfff, offset >> 12);
@@ -438,7 +439,7 @@ impl Encoder {
         self.other(0x8b00_0000 | operands | u32::from(destination.0));
     }
 
-    /// destination = the address of this instruction and this many bytes, less than 2²⁰: ADR
+    /// destination = the address of this instruction + `distance`, which is less than 2²⁰ bytes: ADR
     pub fn address(&mut self, destination: General, distance: u32) {
         let distance = (distance & 3) << 29 | (distance >> 2) << 5;
         self.other(0x1000_0000 | distance | u32::from(destination.0));
@@ -459,12 +460,12 @@ impl Encoder {
         self.other(0xd65f_03c0);
     }
 
-    /// Jumps if the condition holds: B.cond. [`land`](Self::land) sets the target, which is nearer than 2²⁰ bytes.
+    /// Jumps if the condition holds: B.cond. [`land`](Self::land) sets the target, which must be nearer than 2²⁰ bytes.
     pub fn jump_if(&mut self, condition: Condition) -> Jump {
         self.branch(0x5400_0000 | condition as u32)
     }
 
-    /// Jumps if the lower half of a register is 0: CBZ, as near.
+    /// Jumps if the lower half of a register is 0: CBZ. The target must be nearer than 2²⁰ bytes.
     pub fn jump_if_zero(&mut self, register: General) -> Jump {
         self.branch(0x3400_0000 | u32::from(register.0))
     }
@@ -523,12 +524,13 @@ pub fn encode_pair(store: bool, size: Size, base: General, offset: u32, pair: [V
     word | u32::from(!store) << 22 | offset << 15 | operands
 }
 
-/// Whether an instruction is B.cond or CBZ.
+/// True if an instruction is B.cond or CBZ.
 pub fn is_conditional(word: u32) -> bool {
     word & 0xff00_0010 == 0x5400_0000 || word & 0xff00_0000 == 0x3400_0000
 }
 
-/// The same instruction; but a conditional branch becomes the opposite one, which skips an unconditional branch.
+/// An instruction as it stands in long code. A conditional branch becomes two: the opposite branch, which skips an
+/// unconditional one. All other instructions stay as they are.
 pub fn long_branch(word: u32) -> impl Iterator<Item = u32> {
     let skip = match word & 0xff00_0010 == 0x5400_0000 {
         true => word ^ 1,
@@ -540,7 +542,7 @@ pub fn long_branch(word: u32) -> impl Iterator<Item = u32> {
     long.into_iter().flatten().chain(short)
 }
 
-/// A branch with its distance in instructions.
+/// A branch instruction with its distance, counted in instructions, filled in.
 ///
 /// # Panics
 /// If the distance does not fit.
@@ -567,11 +569,11 @@ pub fn with_distance(word: u32, distance: i64) -> u32 {
 pub enum Immediate {
     /// +0
     Zero,
-    /// A sign, three bits of exponent, four bits behind the point.
+    /// A number with a sign, three bits of exponent and four bits after the binary point.
     Eight(u8),
 }
 
-/// A number as part of an instruction; `None` if it has too many bits.
+/// The encoding of a number within an instruction; `None` if the number has too many bits.
 pub fn immediate(number: f64) -> Option<Immediate> {
     let bits = number.to_bits();
     if bits == 0 {
@@ -583,7 +585,7 @@ pub fn immediate(number: f64) -> Option<Immediate> {
     }
     let sign = (bits >> 63) as u8;
     let fraction = (bits >> 48 & 15) as u8;
-    // the first bit of the exponent is inverted
+    // the encoding inverts the first bit of the exponent
     let exponent = ((exponent + 3) as u8 & 7) ^ 4;
     Some(Immediate::Eight(sign << 7 | exponent << 4 | fraction))
 }

@@ -1,4 +1,5 @@
-//! Machine code for AArch64: Arm processors of 64 bits, whose vector registers have 16 bytes (Advanced SIMD, which all of them have).
+//! Machine code for AArch64: 64-bit Arm processors, with the vector registers of 16 bytes that all of them have
+//! (Advanced SIMD).
 //!
 //! | module | what |
 //! |---|---|
@@ -24,19 +25,20 @@ use emit::Arm;
 /// The scalar that code is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// Whether a value is a whole register of 16 bytes, with a number in each lane; otherwise it is one number.
+    /// True if a value is a whole register of 16 bytes, with a number in each lane; false if it is one number.
     pub lanes: bool,
     /// Doubles or singles.
     pub precision: Precision,
-    /// Whether a · b + c is rounded once; otherwise it is rounded twice.
+    /// True if a · b + c is rounded once, false if it is rounded twice.
     pub fused: bool,
-    /// Whether every scalar is a dual number: a value and, in the next slot, its slope.
+    /// True if every scalar is a dual number: a value and, in the next slot, its slope.
     pub slopes: bool,
 }
 
-/// The function that evaluates a list. `curves` are those of the model. Functions that this target has no steps for are called.
+/// Makes the function that evaluates a list. `curves` are the curves of the model. The emitted code calls the functions
+/// for which this target has no steps.
 ///
-/// The function is `extern "C"`, and so are the functions that it calls.
+/// The emitted function is `extern "C"`, and so are the functions that it calls.
 ///
 /// # Panics
 /// If the code is longer than 128 MiB.

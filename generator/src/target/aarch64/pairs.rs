@@ -1,15 +1,16 @@
-//! Two moves to or from neighbouring places of memory become one instruction: LDP, STP.
+//! Joins two loads, or two stores, of neighbouring places in memory into one instruction: LDP, STP.
 //!
-//! Of two such moves the later one is moved up to the earlier one, or the earlier one down to the later one, where no instruction between them forbids it.
-//! No move passes a branch, the target of a branch, or a call.
+//! Of two such moves (loads or stores), the later one is moved up to the earlier one, or the earlier one down to the
+//! later one, if no instruction between them forbids it. No move passes a branch, the target of a branch, or a call.
 
 use super::encode::{Access, Effect, Encoder, Instruction, encode_pair};
 use crate::target::machine::operation::Vector;
 
-/// At most so many instructions lie between the two.
+/// Two moves are joined only if the second is within this many instructions after the first.
 const REACH: usize = 48;
 
-/// Joins moves. `borders` has a truth value for each instruction: whether a branch goes to it. Returns for each instruction whether it is left out.
+/// Joins moves. `borders` is true for each instruction that a branch goes to. Returns true for each instruction that is
+/// left out.
 pub(super) fn join(instructions: &mut [Instruction], borders: &[bool]) -> Vec<bool> {
     let mut gone = vec![false; instructions.len()];
     for first in 0..instructions.len() {
@@ -41,7 +42,8 @@ pub(super) fn join(instructions: &mut [Instruction], borders: &[bool]) -> Vec<bo
     gone
 }
 
-/// The second move that can be joined with the first one, and whether it is moved up to the first one; otherwise the first one is moved down.
+/// The later move that can be joined with the move at `first`, and true if it is moved up to `first`; false if the move
+/// at `first` is moved down to it.
 fn partner(
     instructions: &[Instruction],
     borders: &[bool],
@@ -49,7 +51,7 @@ fn partner(
     first: usize,
     access: Access,
 ) -> Option<(usize, bool)> {
-    // what lies between the two
+    // the instructions between the two moves
     let mut between = Between::default();
     let end = instructions.len().min(first + 1 + REACH);
     for second in first + 1..end {
@@ -83,20 +85,20 @@ fn partner(
     None
 }
 
-/// Whether two moves are to or from neighbouring places that one instruction can reach.
+/// True if two moves are of neighbouring places that one instruction can reach.
 fn fit(a: Access, b: Access) -> bool {
     let like = a.store == b.store && a.size == b.size && a.base == b.base;
-    // two loads into one register have no meaning
+    // an instruction must not load two numbers into one register
     let registers = a.store || a.vector != b.vector;
     like && registers
         && a.offset.abs_diff(b.offset) == 1
         && a.offset.min(b.offset) <= Encoder::FARTHEST_PAIR
 }
 
-/// What instructions do that a move would pass.
+/// The effects of the instructions between two moves.
 #[derive(Default)]
 struct Between {
-    /// Bits of the vector registers that they read and write.
+    /// A bit for each vector register that is read, or written.
     reads: u32,
     writes: u32,
     moves: Vec<Access>,
@@ -112,14 +114,14 @@ impl Between {
         self.moves.push(access);
     }
 
-    /// Whether a move may pass all of them, in either direction.
+    /// True if a move may pass all of these instructions, in either direction.
     fn lets_pass(&self, access: Access) -> bool {
         let bit = bit(access.vector);
         let registers = match access.store {
             true => self.writes & bit == 0,
             false => (self.reads | self.writes) & bit == 0,
         };
-        // regions do not overlap if one of them is written
+        // two regions do not overlap if one of them is written
         let same_place = |other: &Access| {
             (other.store || access.store)
                 && other.base == access.base

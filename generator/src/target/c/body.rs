@@ -6,19 +6,19 @@ use crate::expression::{ApproachCall, Function};
 use crate::program::{Input, List, Operation, Value};
 use std::fmt::Write as _;
 
-/// The statements of a list, and the arguments of its function that they use.
+/// The statements of a list, and which arguments of the C function they use.
 pub(super) struct Body {
     pub text: String,
-    /// Whether they use `m`: parameters and values derived from them.
+    /// True if the statements use `m`: parameters and values derived from them.
     pub uses_model: bool,
-    /// Whether they use `t`.
+    /// True if the statements use `t`.
     pub uses_time: bool,
-    /// Whether they use `y`.
+    /// True if the statements use `y`.
     pub uses_state: bool,
 }
 
-/// Writes a list whose results go to `results[0]`, `results[1]` and so on. `m` is a pointer to the model, `t` the time, `y` the state.
-/// Accelerations are in `accelerations`, event functions in `event_functions`.
+/// Writes a list as statements that store its results to `results[0]`, `results[1]` and so on. `m` is a pointer to the
+/// model, `t` the time, `y` the state. Accelerations are in `accelerations`, event functions in `event_functions`.
 pub(super) fn body(list: &List, curve: &dyn Fn(u32) -> String, support: &mut Support) -> Body {
     let first = list.constants.len() + list.inputs.len();
     let mut writer = Writer {
@@ -58,7 +58,7 @@ pub(super) fn body(list: &List, curve: &dyn Fn(u32) -> String, support: &mut Sup
     }
 }
 
-/// For each value, whether a result depends on it.
+/// For each value of a list, true if a result depends on it.
 fn used(list: &List) -> Vec<bool> {
     let mut used = vec![false; list.values()];
     for result in &list.results {
@@ -90,10 +90,10 @@ fn input(input: Input) -> String {
 
 struct Writer<'a> {
     list: &'a List,
-    /// Gives the name of a curve.
+    /// Returns the name of a curve, given its index.
     curve: &'a dyn Fn(u32) -> String,
     support: &'a mut Support,
-    /// For each value, its text.
+    /// For each value, the C expression that stands for it.
     names: Vec<String>,
     used: Vec<bool>,
     text: String,
@@ -104,7 +104,7 @@ impl Writer<'_> {
         &self.names[value.0 as usize]
     }
 
-    /// Writes an operation, unless nothing uses it; `name` is its number.
+    /// Writes an operation, unless no result depends on it. `name` is the number in the name of its variable.
     fn operation(&mut self, operation: Operation, name: usize) {
         let begin = self.names.len();
         let defines = operation.defines();
@@ -169,7 +169,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The arguments of a call.
+    /// The arguments of a call, separated by commas.
     fn arguments(&self, function: Function, first: u32) -> String {
         let first = first as usize;
         let values = &self.list.arguments[first..first + function.arity()];
@@ -177,7 +177,7 @@ impl Writer<'_> {
         values.join(", ")
     }
 
-    /// A call of a function with one result.
+    /// The expression that calls a function with one result.
     fn call(&mut self, function: Function, first: u32) -> String {
         let (part, curve) = match function {
             Function::Curve(curve) => ("curve_value", Some(curve)),
@@ -205,7 +205,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A call of a function with several results, which are written to an array.
+    /// Writes a call of a function with several results, which go to an array.
     fn several(&mut self, function: Function, first: u32, name: usize) {
         let (part, early) = match function {
             Function::Support(_) => ("support", None),

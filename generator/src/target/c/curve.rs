@@ -1,4 +1,4 @@
-//! Curves as constant arrays, with everything that follows from their points.
+//! Curves as constant arrays of points, slopes, coefficients and integrals.
 //!
 //! Slopes, coefficients and integrals are computed as the runtime computes them (`bryant_runtime::curve`), so that values have the same bits.
 
@@ -7,21 +7,21 @@ use crate::model::Extrapolate;
 use crate::program::Curve;
 use std::fmt::Write as _;
 
-/// Everything that follows from the points of a curve. There is one more piece than points: piece 0 lies left of the first point, piece k + 1
-/// right of point k.
+/// All numbers that are computed from the points of a curve. There is one more piece than points: piece 0 lies left of
+/// the first point, piece k + 1 right of point k.
 struct Pieces {
     /// Slope at the left end of each piece.
     m: Vec<f64>,
     /// Quadratic and cubic coefficients of each piece; `None` for lines.
     higher: Option<[Vec<f64>; 2]>,
-    /// At each point, the integral from the first point; `twice` has the double integral.
+    /// At each point, the integral from the first point. `twice` has the double integral.
     once: Vec<f64>,
     twice: Vec<f64>,
     /// The abscissae at which the curve is not smooth.
     kinks: Vec<f64>,
 }
 
-/// The definition of a curve: its arrays, and a structure named `name` that holds them.
+/// The C definition of a curve: its arrays, and a structure named `name` that points to them.
 pub(super) fn define(curve: &Curve, name: &str) -> String {
     let pieces = match &curve.tangents {
         None => lines(curve),
@@ -128,7 +128,7 @@ fn cubics(curve: &Curve, tangents: &[f64]) -> Pieces {
     let (before, after) = match curve.extrapolate {
         Extrapolate::Linear => (tangents[0], [tangents[count - 1], 0.0, 0.0]),
         Extrapolate::Hold => (0.0, [0.0; 3]),
-        // the last point still belongs to the curve: it keeps slope and second derivative of the last piece
+        // the last point still belongs to the curve, with the slope and second derivative of the last piece
         Extrapolate::Error => {
             let end = m + h * (2.0 * c2 + 3.0 * h * c3);
             (0.0, [end, c2 + 3.0 * h * c3, 0.0])
@@ -146,11 +146,12 @@ fn cubics(curve: &Curve, tangents: &[f64]) -> Pieces {
     }
 }
 
-/// The points at which the second derivative changes, and the ends of a held curve where the slope changes.
+/// The points at which the second derivative changes, and the ends of a held curve if the slope changes there.
 fn cubic_kinks(curve: &Curve, tangents: &[f64], coefficients: &[[f64; 3]]) -> Vec<f64> {
     let points = &curve.points;
     let mut kinks = Vec::new();
-    // for the piece to the left of each point: the second derivative at its end, and a bound of its rounding error
+    // of the piece left of each point: the second derivative at its right end, and a bound of the rounding error of
+    // that
     let (mut bend, mut off) = (0.0, 0.0);
     for (k, &[x, _]) in points.iter().enumerate() {
         let m = tangents[k];

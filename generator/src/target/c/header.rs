@@ -88,7 +88,7 @@ fn sizes(text: &mut String, lists: &Lists, upper: &str) {
     text.push_str("};\n\n");
 }
 
-/// Enumerations of what is in the state, the parameters and the outputs.
+/// Writes enumerations of the entries of the state, the parameters and the outputs.
 fn places(text: &mut String, facts: &Facts, name: &str) {
     let mut taken = Enumerators::default();
     let state = [
@@ -165,7 +165,7 @@ fn structure(text: &mut String, lists: &Lists, name: &str) {
     );
 }
 
-/// Names, units and sentences as text.
+/// Tables of names, units and descriptions: the name of each array, that of its length, and its entries.
 pub(super) fn tables(facts: &Facts) -> Vec<(&'static str, &'static str, Vec<&str>)> {
     let state = [
         &facts.coordinates,

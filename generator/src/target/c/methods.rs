@@ -9,17 +9,17 @@ use std::fmt::Write as _;
 
 /// A function that the header declares.
 pub(super) struct Function {
-    /// A comment that says what it does. It ends in a newline.
+    /// A comment that says what the function does. It ends in a newline.
     pub about: String,
-    /// Its declaration without a semicolon.
+    /// The declaration without a semicolon.
     pub head: String,
-    /// Functions that only this one calls. They stand before it; `body` is its body with braces.
+    /// Functions that only this function calls. They stand before it; `body` is the body of this function with braces.
     pub before: String,
     pub body: String,
 }
 
 impl Function {
-    /// Whether its text contains this word.
+    /// True if the text of the function contains this word.
     pub fn mentions(&self, word: &str) -> bool {
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
         [&self.before, &self.body].iter().any(|text| {
@@ -29,7 +29,7 @@ impl Function {
     }
 }
 
-/// A method whose results are written to an array without change.
+/// A method whose results are written to an array unchanged.
 struct Plain {
     method: Method,
     name: &'static str,
@@ -121,7 +121,7 @@ const fn plain(
     }
 }
 
-/// Writes the functions of one model.
+/// Writes the C functions of one model.
 pub(super) struct Methods<'a> {
     pub lists: &'a Lists,
     /// The prefix of all names.
@@ -156,8 +156,8 @@ impl Methods<'_> {
         body(self.lists.list(method), &curve, self.support)
     }
 
-    /// The statements of a method, as a static function `NAME_…_at`, for methods that need more than these statements. Also returns the
-    /// call of it at (m, t, y), which writes the results to `results`.
+    /// Writes the statements of a method as a static function `NAME_…_at`, for methods that need more than these
+    /// statements. Returns this function, and a call of it at (m, t, y) that writes the results to `results`.
     fn inner(&mut self, method: Method, short: &str, results: &str) -> [String; 2] {
         let (name, upper) = (self.name, self.name.to_ascii_uppercase());
         let start = self.lists.routine(method).start;
@@ -483,7 +483,7 @@ impl Methods<'_> {
     }
 }
 
-/// Statements that mention unused arguments of a function, so that no compiler warns.
+/// Statements `(void)x;` for the unused arguments of a function, so that no compiler warns.
 fn silent(body: &Body, start: Start) -> String {
     let unused = [
         (body.uses_model, "m"),

@@ -1,4 +1,4 @@
-//! C99: a header and a source with the methods of a model. They need nothing but `math.h`.
+//! Writes C99: a header and a source with the methods of a model. They need nothing but `math.h`.
 //!
 //! | file | what |
 //! |---|---|
@@ -6,12 +6,13 @@
 //! | `methods` | the functions of a model |
 //! | `body` | a list as the statements of a function |
 //! | `curve` | curves as constant arrays |
-//! | `support` | laws and curves as static functions; their text is in the folder of that name |
+//! | `support` | laws and curves as static functions, whose text is in the folder `support` |
 //! | `names` | identifiers |
 //!
-//! Results have the bits of the Rust text over `f64` if the compiler obeys IEEE 754 (no `-ffast-math`). Elementary functions are part of the text; of
-//! the platform's library it needs only exact functions. With `BRYANT_FUSED` they have the bits of lanes; but when GCC optimises and fuses, it turns
-//! −(a·b + c) into −a·b − c, and if that is 0, its sign differs.
+//! Results have the same bits as those of the Rust text over `f64` if the compiler obeys IEEE 754 (no `-ffast-math`).
+//! The text contains its own elementary functions; of the platform's library it needs only exact functions. With
+//! `BRYANT_FUSED`, results have the same bits as those of lanes, with one exception: if GCC optimises and fuses, it
+//! turns −(a·b + c) into −a·b − c, and if that is 0, its sign differs.
 
 mod body;
 mod curve;
@@ -29,7 +30,7 @@ use support::Support;
 /// A model as C99.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Source {
-    /// The prefix of its names, and the name of its files without `.h` and `.c`.
+    /// The prefix of all C names, and the name of the files without `.h` and `.c`.
     pub name: String,
     /// The text of the header.
     pub header: String,
@@ -37,7 +38,7 @@ pub struct Source {
     pub source: String,
 }
 
-/// Why a model cannot be written in C: its forces call functions of the user, which are Rust.
+/// The reason why a model cannot be written in C: its forces call functions of the user, which are Rust.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NoC {
     /// The names of the functions.
@@ -57,7 +58,7 @@ impl std::fmt::Display for NoC {
 
 impl std::error::Error for NoC {}
 
-/// Writes a model as C99. `about` describes the model, in lines.
+/// Writes a model as C99. `about` has lines that describe the model.
 ///
 /// # Errors
 /// If the model calls functions of the user, which are Rust.
@@ -111,8 +112,9 @@ pub fn source(lists: &Lists, about: &[String]) -> Result<Source, NoC> {
     })
 }
 
-/// A list as a function of its own, with everything that it calls: `void NAME(double t, const double y[], double results[])`. The list must
-/// start from time and state alone. `curves` are those of the model.
+/// Writes a list as a function of its own, with everything that it calls:
+/// `void NAME(double t, const double y[], double results[])`. The list must depend on time and state alone. `curves`
+/// are the curves of the model.
 ///
 /// # Errors
 /// If the list calls functions of the user, which are Rust.
@@ -196,7 +198,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Text that neither ends a comment nor continues a line.
+/// Replaces characters that would end a comment or continue a line.
 fn comment(words: &str) -> String {
     let printable = |c: char| match c {
         '\\' => '/',
@@ -222,7 +224,7 @@ fn quoted(words: &str) -> String {
     text
 }
 
-/// A statement, broken at commas if it is long.
+/// A statement with indentation, broken at spaces into lines of at most 120 columns.
 fn indented(statement: &str) -> String {
     const WIDTH: usize = 120;
     let mut text = String::from("   ");

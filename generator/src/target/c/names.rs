@@ -2,8 +2,8 @@
 
 use rustc_hash::FxHashSet;
 
-/// Letters, digits and single underscores from words such as "man/head.angle": `man_head_angle`. It stands behind a prefix, so it
-/// may begin with a digit, and may be empty.
+/// Lowercase letters, digits and single underscores, made from words such as "man/head.angle": `man_head_angle`. The
+/// caller puts a prefix before the result, so the result may begin with a digit, and may be empty.
 pub(super) fn snake(words: &str) -> String {
     let letter = |c: char| match c.is_ascii_alphanumeric() {
         true => c.to_ascii_lowercase(),
@@ -14,7 +14,7 @@ pub(super) fn snake(words: &str) -> String {
     parts.collect::<Vec<_>>().join("_")
 }
 
-/// The name of a model; `model` if nothing of the words is left.
+/// The name of a model in C; `model` if no letter or digit of the words is left.
 pub(super) fn model(words: &str) -> String {
     let name = snake(words);
     match name.chars().next() {
@@ -24,7 +24,7 @@ pub(super) fn model(words: &str) -> String {
     }
 }
 
-/// The enumerators used so far.
+/// The names of enumerators used so far.
 #[derive(Default)]
 pub(super) struct Enumerators(FxHashSet<String>);
 

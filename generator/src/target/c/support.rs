@@ -1,8 +1,8 @@
-//! Functions that generated C calls: laws and curves, as small static functions, each in a file of its own.
+//! The functions that generated C calls: laws and curves, as small static functions, each in a file of its own.
 //!
-//! Each does the same as the function of the runtime does for one double, operation for operation.
+//! Each of them does the same as the function of the runtime for one double, operation for operation.
 
-/// A function and the names of the functions that it calls.
+/// A C function, and the names of the functions that it calls.
 struct Part {
     name: &'static str,
     needs: &'static [&'static str],
@@ -19,7 +19,7 @@ macro_rules! parts {
     };
 }
 
-/// All parts. Each stands after those that it needs.
+/// All functions. Each comes after the functions that it needs.
 const PARTS: &[Part] = parts! {
     "multiply_add";
     "horner" ["multiply_add"];
@@ -51,14 +51,14 @@ const PARTS: &[Part] = parts! {
     "kink_after" ["curve"];
 };
 
-/// The text of some parts and of all parts that they need.
+/// The functions that a source needs, and those that they call in turn.
 #[derive(Default)]
 pub(super) struct Support {
     wanted: Vec<&'static str>,
 }
 
 impl Support {
-    /// Adds a part.
+    /// Adds a function, and the functions that it needs.
     pub fn want(&mut self, name: &'static str) {
         let Some(part) = PARTS.iter().find(|part| part.name == name) else {
             unreachable!("there is a part for each function");
@@ -69,12 +69,12 @@ impl Support {
         }
     }
 
-    /// Whether a part was added.
+    /// True if a function was added.
     pub fn has(&self, name: &str) -> bool {
         self.wanted.contains(&name)
     }
 
-    /// All added parts, in an order that a compiler accepts.
+    /// The text of all added functions; each comes after those that it calls.
     pub fn text(&self) -> String {
         let wanted = PARTS.iter().filter(|part| self.has(part.name));
         wanted.map(|part| format!("{}\n", part.text)).collect()

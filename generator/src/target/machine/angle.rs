@@ -1,7 +1,8 @@
 //! `atan2` of doubles, written out as steps in place of a call.
 //!
-//! The steps follow the runtime (`runtime/src/real/lanes/elementary/angle.rs`, which explains them) operation by operation, so they give the same
-//! bits. Points so near or far that reciprocals leave the range of numbers are rare; they take a branch to the function of the runtime: see `rare`.
+//! The steps follow the runtime (`runtime/src/real/lanes/elementary/angle.rs`, which explains them) operation by
+//! operation, so they give the same bits. Points so near to or far from the origin that reciprocals leave the range of
+//! numbers are rare; for them the code branches to the function of the runtime: see `rare`.
 
 use super::numbers::Signed;
 use super::operation::{Binary, Bitwise};
@@ -55,7 +56,7 @@ impl Lowering<'_> {
         let short = n.select(steep, right, up);
         let long = n.select(steep, up, right);
 
-        // t, the remainder of the division, and that of the sum below
+        // t, the rounding error of the division, and that of the sum below
         let half = n.number(0.5);
         let half = n.scaled(Binary::Mul, long, half);
         let beyond = [half, short];
@@ -76,7 +77,7 @@ impl Lowering<'_> {
         let of_rest = n.scaled(Binary::Mul, rest, inverse);
         let tail = n.mul_add(cubed, polynomial, of_rest);
 
-        // the other eighth, quarter and half: the angle is then measured from 0, π/2 or π
+        // the other eighths, quarters and halves of the circle: the angle is then measured from 0, π/2 or π
         let sign = n.constant(-0.0);
         let [of_x, of_y] = [x, y].map(|side| {
             let side = n.with_sign(side);

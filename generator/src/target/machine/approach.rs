@@ -1,7 +1,9 @@
-//! Two ellipsoids or ellipses that are mostly far from each other: this case is written out as steps, with a branch for all others.
+//! Two ellipsoids or ellipses that are mostly far from each other: the steps for this case, and a branch to the runtime
+//! for all others.
 //!
-//! This is for one lane. The steps follow the runtime (`touch` in `runtime/src/force/approach/{plane,space}.rs`, which explain them) operation by
-//! operation, up to where it knows whether the line of centres separates the two. If it does not, a branch calls the runtime: see `rare`.
+//! Only code for one lane uses these steps. They follow the runtime (`touch` in
+//! `runtime/src/force/approach/{plane,space}.rs`, which explain them) operation by operation, up to the test whether
+//! the line of centres separates the two. If it does not, a branch calls the runtime: see `rare`.
 
 use super::numbers::Signed;
 use super::steps::{Callee, Lowering};
@@ -9,9 +11,10 @@ use super::terms::Term;
 use crate::expression::{ApproachCall, Function};
 
 impl Lowering<'_> {
-    /// The results of the call; `None` if it must be called in any case.
+    /// The results of the call; `None` if the runtime must be called in any case.
     pub fn approach(&mut self, call: ApproachCall, a: &[Term]) -> Option<Vec<Term>> {
-        // of several lanes, one is near most of the time; in space, results with their slopes need too many registers at once
+        // with several lanes, the pair is near in one of them most of the time; in space, results with their slopes
+        // need too many registers at once
         if !call.early || !self.one_lane || self.slopes && !call.planar {
             return None;
         }

@@ -1,11 +1,11 @@
 //! The memory of a function.
 //!
-//! A function in machine code has one argument: a struct of pointers, one for each [`Base`], in their order. A called function has the arguments
-//! `(context: *const (), arguments: *const S, results: *mut S)`. The functions of a list are a table of pairs of pointers: the function, then its
-//! context.
+//! A function in machine code has one argument: a struct of pointers, one for each [`Base`], in the order of its
+//! variants. A function that it calls has the arguments `(context: *const (), arguments: *const S, results: *mut S)`.
+//! The functions that a list calls are in a table of pairs of pointers: the function, then its context.
 
-/// A region of memory of a function, in the order of the pointers. All regions except the last consist of slots of one scalar each. If one of two
-/// regions is written, they must not overlap.
+/// A region of memory that a function reads or writes, in the order of the pointers. All regions except the last
+/// consist of slots of one scalar each. Two regions must not overlap if one of them is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
 pub enum Base {
@@ -30,7 +30,7 @@ pub enum Base {
 }
 
 impl Base {
-    /// All of them, in order.
+    /// All regions, in the order of their pointers.
     pub const ALL: [Base; 9] = [
         Base::Time,
         Base::State,

@@ -1,8 +1,8 @@
-//! The order of instructions, and where values are meanwhile.
+//! Emits steps as instructions, and decides which values are in registers and which in memory.
 //!
-//! Steps are emitted in their order. A value stays in its register until it is no longer needed or another value needs the register. In
-//! the latter case it is stored in the frame, unless it is already in memory. Which instructions a step takes, and whether they read operands from
-//! memory, is known to the [`Processor`].
+//! Steps are emitted in their order. A value stays in its register until it is no longer needed or another value needs
+//! the register. In the latter case it is stored in the frame, unless it is already in memory. The [`Processor`]
+//! decides which instructions a step takes, and whether they read operands from memory.
 
 use super::Code;
 use super::base::Base;
@@ -27,11 +27,11 @@ pub(crate) enum Home {
 /// A place in a region: its offset in bytes.
 pub(crate) type At = (Base, u32);
 
-/// What the code of one function needs.
+/// Facts about the steps of a function that a [`Processor`] must know before it writes code.
 pub(crate) struct Needs {
-    /// About how often each region is used.
+    /// Roughly how often each region is used.
     pub uses: [u32; Base::ALL.len()],
-    /// Whether other functions are called.
+    /// True if other functions are called.
     pub calls: bool,
     /// Number of steps.
     pub steps: usize,
@@ -39,27 +39,28 @@ pub(crate) struct Needs {
 
 /// A processor with the code that was written for it so far.
 pub(crate) trait Processor: Sized {
-    /// A bit for each vector register that is taken before the others.
+    /// A bit for each vector register that is used before the others.
     const TAKEN_FIRST: u32;
-    /// Emits a step that is arithmetic: no call, and no branch.
+    /// Emits a step of arithmetic, neither a call nor a branch.
     fn step(emitter: &mut Emitter<'_, Self>, step: &Step);
-    /// Emits a jump that is taken if the size in a register is not below a limit, a constant, in all lanes. The registers in `keep` are not changed.
+    /// Emits a jump that is taken unless the number in the register `size` is below the constant `limit` in all lanes.
+    /// The registers in `keep` are not changed.
     fn jump_if_rare(emitter: &mut Emitter<'_, Self>, size: Vector, limit: u32, keep: Set) -> Jump;
     /// register = a slot of memory
     fn load(&mut self, shape: Shape, register: Vector, from: At);
-    /// register = the constant that lies so many bytes behind the beginning of the constants, in every lane
+    /// register = a constant, in every lane. `offset` is its distance in bytes from the beginning of the constants.
     fn load_constant(&mut self, shape: Shape, register: Vector, offset: u32, constants: &[u8]);
     /// A slot of memory = register
     fn store(&mut self, shape: Shape, to: At, register: Vector);
-    /// Calls a function of the table.
+    /// Calls the function with this index in the table.
     fn call(&mut self, shape: Shape, index: u32, arguments: At, results: At);
-    /// Ends the function, whose values have this shape.
+    /// Ends the function; its values have this shape.
     fn leave(&mut self, shape: Shape);
-    /// The same in a part that is itself called, by [`call_place`](Self::call_place).
+    /// Like [`call`](Self::call), within a part that is itself called by [`call_place`](Self::call_place).
     fn call_from_part(&mut self, shape: Shape, index: u32, arguments: At, results: At);
-    /// Ends such a part.
+    /// Ends a part that is called by [`call_place`](Self::call_place).
     fn leave_part(&mut self);
-    /// Whether the code so far may have changed a register.
+    /// True if the code so far may have changed a register.
     fn changed(&self, register: Vector) -> bool;
     /// The place of the next instruction.
     fn here(&self) -> Place;
@@ -67,13 +68,14 @@ pub(crate) trait Processor: Sized {
     fn land(&mut self, jump: Jump);
     /// Jumps to a place.
     fn jump_to(&mut self, place: Place);
-    /// Calls a part of the code.
+    /// Calls the part of the code that begins at a place.
     fn call_place(&mut self, place: Place);
-    /// The code with the constants behind it, from a multiple of 64 on.
+    /// The code, followed by the constants from the next multiple of 64 bytes on.
     fn finish(self, constants: Vec<u8>) -> Vec<u8>;
 }
 
-/// The function for these steps, which are the steps of `list`. The processor has so many vector registers.
+/// Emits the function for these steps, which must be the steps of `list`. `registers` is the number of vector registers
+/// of the processor.
 pub(crate) fn emit<P: Processor>(
     steps: &Steps,
     list: &List,
@@ -100,7 +102,7 @@ pub(crate) fn emit<P: Processor>(
     }
 }
 
-/// The place of an input.
+/// The region and slot of an input.
 fn place(input: Input) -> (Base, u32) {
     match input {
         Input::Time => (Base::Time, 0),
@@ -112,7 +114,7 @@ fn place(input: Input) -> (Base, u32) {
     }
 }
 
-/// The number of slots of the inputs of a list.
+/// The number of slots that the inputs of a list take in each region.
 fn inputs(list: &List) -> [u32; Base::ALL.len()] {
     let mut slots = [0; Base::ALL.len()];
     for (base, slot) in list.inputs.iter().map(|input| place(*input)) {
@@ -142,10 +144,10 @@ fn homes(steps: &Steps, values: &Values) -> (Vec<u8>, Vec<Home>) {
     (constants, homes)
 }
 
-/// Appends a constant, in as many copies as instructions read, and returns its offset.
+/// Appends a constant, in as many copies as an instruction reads at once, and returns its offset.
 fn add_constant(constants: &mut Vec<u8>, number: f64, shape: Shape) -> u32 {
     let at = constants.len() as u32;
-    // for 64 bytes, one number is broadcast
+    // an instruction on 64 bytes broadcasts one number
     let copies = match shape.length {
         Length::ThirtyTwo => 32 / shape.precision.bytes(),
         Length::Sixteen => 16 / shape.precision.bytes(),
@@ -160,7 +162,8 @@ fn add_constant(constants: &mut Vec<u8>, number: f64, shape: Shape) -> u32 {
     at
 }
 
-/// For each value its first use; for each operand of each step and each argument the next use after that step.
+/// The steps that use a value: for each value its first use; for each operand of a step, and each argument of a call,
+/// the next use of its value after that step.
 struct Uses {
     first: Vec<u32>,
     of_operands: Vec<[u32; 4]>,
@@ -192,7 +195,7 @@ fn uses(steps: &Steps) -> Uses {
     }
 }
 
-/// About how often each region is used.
+/// Roughly how often each region is used.
 fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
     let mut uses = [0; Base::ALL.len()];
     let operands = steps.steps.iter().flat_map(Step::operands);
@@ -202,7 +205,7 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
         }
     }
     uses[Base::Results as usize] = steps.results.len() as u32;
-    // most loads and stores are those of values without a register
+    // most loads and stores are of values that have no register
     uses[Base::Frame as usize] = u32::MAX;
     for step in &steps.steps {
         if let Kind::Call { .. } | Kind::Rare { .. } = step.kind {
@@ -212,7 +215,7 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
     uses
 }
 
-/// The values of a function, and the code so far.
+/// The state of the translation of one function: where its values are, and the code so far.
 pub(crate) struct Emitter<'a, P> {
     pub steps: &'a Steps,
     pub shape: Shape,
@@ -221,14 +224,14 @@ pub(crate) struct Emitter<'a, P> {
     homes: Vec<Home>,
     constants: Vec<u8>,
     slots: Slots,
-    /// `None` if no number is rare.
+    /// The branches for rare numbers; `None` if there are none.
     pub rare: Option<Rare>,
-    /// Slots that become free after this step.
+    /// Slots of the frame that become free after this step.
     vacated: Vec<u32>,
     uses: Uses,
     /// The index of the first result that is this value, or `NEVER`.
     result: Vec<u32>,
-    /// Results that are not written when a step defines them, with their values.
+    /// Results that no step defines, with their values: inputs, constants, and repeated results.
     remaining: Vec<(u32, u32)>,
     pub now: u32,
 }
@@ -249,7 +252,7 @@ impl<'a, P: Processor> Emitter<'a, P> {
         let most_arguments = calls.max();
         let mut slots = Slots::default();
         if let Some(most) = most_arguments {
-            // from slot 0 on: arguments
+            // the slots from 0 on are for arguments
             slots.take_several(most.max(1));
         }
         let mut result = vec![NEVER; steps.origins.len()];
@@ -299,12 +302,13 @@ impl<'a, P: Processor> Emitter<'a, P> {
         self.give_back();
     }
 
-    /// The next use of an operand after this step.
+    /// The next step after this one that uses an operand of this step.
     pub(crate) fn after(&self, operand: usize) -> u32 {
         self.uses.of_operands[self.now as usize][operand]
     }
 
-    /// The register of a value. If it is in none, it is loaded. The registers in `keep` are not used for it.
+    /// The register of a value. A value that is in no register is loaded into one; a register in `keep` is not evicted
+    /// for it.
     pub(crate) fn loaded(&mut self, value: u32, keep: Set) -> Vector {
         if let Some(register) = self.registers.of(value) {
             return register;
@@ -325,7 +329,7 @@ impl<'a, P: Processor> Emitter<'a, P> {
         }
     }
 
-    /// The next use of an argument after this step.
+    /// The next step after this one that uses an argument of this step.
     pub(crate) fn after_argument(&self, argument: usize) -> u32 {
         self.uses.of_arguments[argument]
     }
@@ -337,7 +341,8 @@ impl<'a, P: Processor> Emitter<'a, P> {
         }
     }
 
-    /// Drops a value that is no longer needed. The next instruction may still read its slot.
+    /// Drops a value that is no longer needed. Its slot becomes free only after this step, as the next instruction may
+    /// still read it.
     fn forget(&mut self, value: u32) {
         self.registers.remove(value);
         if let Home::Slot(Base::Frame, slot) = self.homes[value as usize] {
@@ -353,12 +358,12 @@ impl<'a, P: Processor> Emitter<'a, P> {
         }
     }
 
-    /// A register for a result; it may be the register of an operand.
+    /// A register for a result; it may be the register of an operand that is no longer needed.
     pub(crate) fn destination(&mut self) -> Vector {
         self.make_room(Set::default())
     }
 
-    /// A free register; if there is none, one is freed.
+    /// A free register; if there is none, a value whose register is not in `keep` is evicted.
     pub(crate) fn make_room(&mut self, keep: Set) -> Vector {
         if let Some(register) = self.registers.free() {
             return register;
@@ -447,7 +452,8 @@ impl<'a, P: Processor> Emitter<'a, P> {
         }
     }
 
-    /// Emits a call. All values in registers are stored before, because functions may change every vector register.
+    /// Emits a call. All values in registers are stored before the call, because the function may change every vector
+    /// register.
     fn call(&mut self, callee: u32, arguments: std::ops::Range<usize>, defines: u32, results: u32) {
         let given = self.arguments(arguments.clone());
         for argument in arguments.clone() {
@@ -494,8 +500,8 @@ impl<'a, P: Processor> Emitter<'a, P> {
         }
     }
 
-    /// Places the arguments of a call side by side and returns their place. Arguments that already stand side by side in memory are not
-    /// moved.
+    /// Places the arguments of a call side by side and returns the place of the first. Arguments that already lie side
+    /// by side in memory are not moved.
     fn arguments(&mut self, arguments: std::ops::Range<usize>) -> (Base, u32) {
         let steps = self.steps;
         let values = &steps.arguments[arguments.clone()];

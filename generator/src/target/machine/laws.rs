@@ -9,11 +9,11 @@ use crate::expression::Function;
 use crate::model::Extrapolate;
 use crate::program::Curve;
 
-/// Curves with more points are called, because the runtime searches them.
+/// Curves with more points are not written out: the runtime is called, which searches for the piece.
 const MOST_POINTS: usize = 8;
 
 impl Lowering<'_> {
-    /// The result of a function; `None` if it must be called.
+    /// The result of a function as steps; `None` if the function must be called.
     pub fn law(&mut self, function: Function, a: &[Term]) -> Option<Term> {
         match function {
             Function::Coulomb => Some(self.coulomb(a[0], a[1], a[2])),
@@ -48,7 +48,7 @@ impl Lowering<'_> {
         self.quotient(limit, speed)
     }
 
-    /// max(0, elastic + viscous) where the penetration is positive, 0 elsewhere.
+    /// max(0, elastic + viscous) if the penetration is positive, otherwise 0.
     fn normal_force(&mut self, penetration: Term, elastic: Term, viscous: Term) -> Term {
         let zero = self.number(0.0);
         let force = self.sum(elastic, viscous);
@@ -57,7 +57,7 @@ impl Lowering<'_> {
         self.select(zero, penetration, force, apart)
     }
 
-    /// `then` where a < b, `otherwise` elsewhere. NaN where the comparison fails because one of them is not finite.
+    /// `then` where a < b, `otherwise` elsewhere. NaN where the comparison fails because a or b is not finite.
     fn choose(&mut self, a: Term, b: Term, then: Term, otherwise: Term) -> Term {
         let (of_a, of_b) = (self.taint(a), self.taint(b));
         let of_both = self.sum(of_a, of_b);
@@ -81,7 +81,7 @@ impl Lowering<'_> {
     fn ordinate(&mut self, lines: Lines, x: Term) -> Term {
         let mut y = self.line(&lines, 0, x);
         for (k, [abscissa, _]) in lines.points.iter().enumerate() {
-            // left of the first point the line is often that of the first piece
+            // left of the first point, the line is often the same as the first piece
             if k == 0 && lines.slope_of(0).to_bits() == lines.slope_of(1).to_bits() {
                 continue;
             }
@@ -111,7 +111,8 @@ impl Lowering<'_> {
         self.guarded(&lines, x, slope)
     }
 
-    /// The breakpoint indicator: the distance to the nearest kink, with a sign that changes at each kink; 1 if there is none.
+    /// The breakpoint indicator: the distance to the nearest kink, with a sign that changes at each kink; 1 if there is
+    /// no kink.
     fn breakpoint_indicator(&mut self, kinks: &[f64], x: Term) -> Term {
         if kinks.is_empty() {
             let (one, taint) = (self.number(1.0), self.taint(x));
@@ -149,7 +150,7 @@ impl Lowering<'_> {
         self.mul_add(slope, way, ordinate)
     }
 
-    /// The value `y`, but NaN outside a curve that must not be left.
+    /// The value `y`; NaN if `x` is outside a curve that must not be left (`Extrapolate::Error`).
     fn guarded(&mut self, lines: &Lines, x: Term, y: Term) -> Term {
         if lines.extrapolate != Extrapolate::Error {
             return y;
@@ -195,7 +196,8 @@ impl Lines {
         self.slopes[piece]
     }
 
-    /// The abscissae at which it is not smooth: where the slope changes by more than rounding, and the ends of a held curve.
+    /// The abscissae at which the curve is not smooth: where the slope changes by more than rounding, and the ends of a
+    /// held curve.
     fn kinks(&self) -> Vec<f64> {
         let last = self.points.len() - 1;
         let held = self.extrapolate == Extrapolate::Hold;
@@ -211,7 +213,7 @@ impl Lines {
         kinks.map(|k| self.points[k][0]).collect()
     }
 
-    /// A bound of the error in the slope right of a point, due to the rounding of coordinates.
+    /// A bound of the error in the slope right of point `k`, due to the rounding of coordinates.
     fn rounding(&self, k: usize) -> f64 {
         let ([x0, y0], [x1, y1]) = (self.points[k], self.points[k + 1]);
         let run = x1 - x0;

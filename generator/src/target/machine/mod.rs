@@ -1,4 +1,4 @@
-//! What is the same for machine code of every processor.
+//! The part of making machine code that is the same for every processor.
 //!
 //! | module | what |
 //! |---|---|
@@ -16,7 +16,7 @@
 //! | `slots` | places in the frame |
 //! | `base` | the memory of a function |
 //!
-//! A `Processor` (in `emit`) writes the instructions: each has a folder of its own beside this one.
+//! A `Processor` (in `emit`) writes the instructions. Each processor has a folder beside this one.
 //!
 //! The code is one function for a whole list. The function branches only for rare numbers. It uses the stack only as far as calls need it, and works in a
 //! frame that the caller provides. Results are written as soon as they are known.
@@ -43,10 +43,11 @@ pub use steps::Callee;
 /// A function in machine code.
 #[derive(Clone, Debug)]
 pub struct Code {
-    /// The code, entered at its first byte, followed by its constants. It may lie at any multiple of 64.
+    /// The code, followed by its constants. Its first byte is the entry. Its address must be a multiple of 64.
     pub bytes: Vec<u8>,
-    /// The functions that it calls, in the order of the table that it expects.
+    /// The functions that the code calls, in the order of the table that it expects.
     pub callees: Vec<Callee>,
-    /// The number of scalars that it needs in each region; for [`Base::Functions`] the number of entries of the table.
+    /// The number of scalars that the code needs in each region; for [`Base::Functions`] the number of entries of the
+    /// table.
     pub slots: [u32; Base::ALL.len()],
 }

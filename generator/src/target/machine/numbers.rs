@@ -24,7 +24,7 @@ impl Signed {
         }
     }
 
-    /// The same with the other sign.
+    /// The value with the opposite sign.
     pub fn negated(self) -> Self {
         Signed {
             negative: !self.negative,
@@ -35,9 +35,9 @@ impl Signed {
 
 /// The steps so far, and known facts about their values.
 pub(crate) struct Numbers {
-    /// Whether a · b + c is rounded once.
+    /// True if a · b + c is rounded once.
     fused: bool,
-    /// The negative of a value, if it already exists.
+    /// For each value whose negative is already a value of its own, that negative.
     negatives: FxHashMap<u32, u32>,
     /// The value of each constant, by its bits.
     constants: FxHashMap<u64, u32>,
@@ -74,7 +74,7 @@ impl Numbers {
         }
     }
 
-    /// `then` where a < b, `otherwise` elsewhere. If both are the same value, there is no selection.
+    /// `then` where a < b, `otherwise` elsewhere. No step is added if `then` and `otherwise` are the same.
     pub fn slope_where(&mut self, ab: [Signed; 2], then: Signed, otherwise: Signed) -> Signed {
         match then == otherwise {
             true => then,
@@ -91,7 +91,7 @@ impl Numbers {
         }
     }
 
-    /// A product or quotient; its sign is that of its factors.
+    /// A product or a quotient. A negation of an operand becomes a negation of the result.
     pub fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
         Signed {
             negative: a.negative != b.negative,
@@ -99,7 +99,7 @@ impl Numbers {
         }
     }
 
-    /// (±a) · (±b) + (±c), rounded once if the target can
+    /// (±a) · (±b) + (±c), rounded once if the target has fused operations
     pub fn mul_add(&mut self, a: Signed, b: Signed, c: Signed) -> Signed {
         if self.fused {
             return self.fused(a, b, c);
@@ -129,8 +129,8 @@ impl Numbers {
         self.step(Kind::Fused(signs), [a.value, b.value, c.value, a.value])
     }
 
-    /// The larger or smaller one; the first where either is NaN. The larger of two negatives is the negative of the smaller. The instruction
-    /// returns its second operand where either is NaN.
+    /// The larger or the smaller of a and b; a if either is NaN. The instruction returns its second operand if either
+    /// is NaN, so the operands are exchanged. The larger of two negatives is the negative of the smaller.
     pub fn extreme(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
         let (first, second) = (b, a);
         if first.negative && second.negative {
@@ -191,7 +191,7 @@ impl Numbers {
         Signed::plain(value)
     }
 
-    /// A value with this origin.
+    /// Adds a value with this origin.
     pub fn value(&mut self, origin: Origin) -> u32 {
         self.steps.origins.push(origin);
         self.steps.origins.len() as u32 - 1
@@ -207,12 +207,12 @@ impl Numbers {
         value
     }
 
-    /// A constant as a signed value.
+    /// A constant as a [`Signed`] value.
     pub fn number(&mut self, number: f64) -> Signed {
         Signed::plain(self.constant(number))
     }
 
-    /// A value with its sign.
+    /// The value that a [`Signed`] stands for; a negation adds a step.
     pub fn with_sign(&mut self, signed: Signed) -> u32 {
         match signed.negative {
             true => self.negative(signed.value),

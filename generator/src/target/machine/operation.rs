@@ -1,4 +1,4 @@
-//! The operations of which steps consist, and the operands of instructions that every processor has.
+//! The operations of steps, and the operands of instructions that every processor has.
 
 /// A vector register, 0 to 31.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,22 +15,22 @@ pub enum Binary {
     Sub,
     /// first / second
     Div,
-    /// The larger one; the second where either is NaN or both are zero.
+    /// The larger operand; the second one if either is NaN or both are zero.
     Max,
-    /// The smaller one; the second where either is NaN or both are zero.
+    /// The smaller operand; the second one if either is NaN or both are zero.
     Min,
 }
 
-/// An operation on bits.
+/// A bitwise operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bitwise {
-    /// Set where both bits are set.
+    /// A bit is set where both operands have it.
     And,
-    /// Set where exactly one of the bits is set.
+    /// A bit is set where exactly one of the operands has it.
     Xor,
 }
 
-/// The signs in a fused operation.
+/// The signs of product and addend in a fused operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Signs {
     /// −(a · b) instead of a · b
@@ -39,10 +39,11 @@ pub struct Signs {
     pub addend: bool,
 }
 
-/// A place in the code.
+/// A position in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place(pub usize);
 
-/// A jump whose displacement must still be filled in; it contains the position of the displacement.
+/// A jump whose target must still be filled in. On x86-64 it holds the position of the displacement, on AArch64 the
+/// index of the branch.
 #[derive(Debug)]
 pub struct Jump(pub usize);

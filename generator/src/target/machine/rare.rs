@@ -1,9 +1,10 @@
-//! The branch for rare numbers.
+//! The branches for rare numbers.
 //!
-//! Some functions are written out only for usual numbers: sine and cosine for angles that are not large, `atan2` for points that are neither far nor
-//! near, two ellipsoids for pairs that are far from each other. If a number in any lane is outside of this range, the code jumps to a part behind its
-//! end. This part stores all registers, calls the function that handles all numbers, and loads all registers again, except those that hold the
-//! results. So the code to which it jumps back need not know of it.
+//! Some functions are written out only for usual numbers: sine and cosine for angles that are not large, `atan2` for
+//! points that are neither very far from nor very near to the origin, contacts of two ellipsoids for pairs that are far
+//! apart. If a number in any lane is outside of this range, the code jumps to a part behind its end. This part stores
+//! all registers, calls the function that handles all numbers, and loads all registers again, except those that hold
+//! the results. So the code to which it jumps back need not know of the branch.
 
 use super::base::Base;
 use super::emit::{Emitter, Home, Processor};
@@ -12,11 +13,11 @@ use super::registers::Set;
 use super::slots::Slots;
 use super::steps::{Kind, Step, Steps};
 
-/// The branches, and the room that they need.
+/// The branches of a function, and the slots of the frame that they need.
 pub(crate) struct Rare {
     /// The number of vector registers.
     registers: u32,
-    /// First slots in the frame for the arguments of a function, its results, and all registers.
+    /// First slots in the frame: of the arguments of the called function, of its results, and of the stored registers.
     given: u32,
     results: u32,
     kept: u32,
@@ -27,14 +28,14 @@ struct Branch {
     jump: Jump,
     /// Index of the function in the table.
     callee: u32,
-    /// Number of slots of a number.
+    /// Number of slots of each number that is passed.
     slots: u32,
     given: Vec<Somewhere>,
     results: Vec<Vector>,
     back: Place,
 }
 
-/// The place of a number.
+/// The place of a number that is passed to a function.
 #[derive(Clone, Copy)]
 enum Somewhere {
     Register(Vector),
@@ -42,7 +43,7 @@ enum Somewhere {
 }
 
 impl Rare {
-    /// Reserves room for branches; `None` if there are none.
+    /// Reserves slots for the branches of these steps; `None` if there are no branches.
     pub fn new(steps: &Steps, registers: u32, slots: &mut Slots) -> Option<Rare> {
         let needs = steps.steps.iter().filter_map(|step| match step.kind {
             Kind::Rare {
@@ -64,14 +65,15 @@ impl Rare {
         })
     }
 
-    /// The slots in which registers are kept, with these registers.
+    /// The slots in which registers are stored, each with its register.
     fn kept(&self) -> impl Iterator<Item = (u32, Vector)> + use<> {
         (self.kept..).zip((0..self.registers as u8).map(Vector))
     }
 }
 
 impl<P: Processor> Emitter<'_, P> {
-    /// Branches if a size is not below its limit in all lanes. The code continues with the results in their registers.
+    /// Emits a branch that is taken unless a size is below its limit in all lanes. The code continues with the results
+    /// in their registers.
     pub fn rare(&mut self, step: &Step) {
         let Kind::Rare {
             callee,
@@ -126,7 +128,8 @@ impl<P: Processor> Emitter<'_, P> {
         }
     }
 
-    /// The code behind the end of the function: a part for each branch, and before these the parts that branches of one function share.
+    /// Emits the code behind the end of the function: first the parts that the branches of one callee share, then a
+    /// part for each branch.
     pub fn rare_ways(&mut self) {
         let Some(mut rare) = self.rare.take() else {
             return;
@@ -146,7 +149,7 @@ impl<P: Processor> Emitter<'_, P> {
                 let register = match number {
                     Somewhere::Register(register) => register,
                     Somewhere::Memory(home) => {
-                        // the result must be in this register
+                        // results[0] is free for this: the result is loaded into it after the call
                         self.load_home(branch.results[0], home);
                         branch.results[0]
                     }
@@ -165,7 +168,7 @@ impl<P: Processor> Emitter<'_, P> {
         }
     }
 
-    /// Calls a function and restores all vector registers.
+    /// Emits a call of a function that leaves all vector registers as they were.
     fn call_with_all_kept(&mut self, rare: &Rare, callee: u32) {
         let kept: Vec<(u32, Vector)> = rare
             .kept()

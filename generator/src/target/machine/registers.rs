@@ -1,12 +1,12 @@
-//! Which value is in which register, and which value is evicted if none is free.
+//! Keeps track of which value is in which register, and chooses the value to evict if no register is free.
 
 use super::operation::Vector;
 
-/// No step: later than every step.
+/// The step number that means "no step": later than every step.
 pub(crate) const NEVER: u32 = u32::MAX;
-/// No register.
+/// The register number that means "no register".
 const NONE: u8 = u8::MAX;
-/// No value.
+/// The value number that means "no value".
 const EMPTY: u32 = u32::MAX;
 
 /// A set of registers.
@@ -18,7 +18,7 @@ impl Set {
         Set(self.0 | 1 << register.0)
     }
 
-    /// The registers of both sets.
+    /// The registers that are in either set.
     pub fn and(self, other: Set) -> Set {
         Set(self.0 | other.0)
     }
@@ -42,7 +42,7 @@ pub(crate) struct Registers {
 }
 
 impl Registers {
-    /// So many free registers, of which those in `taken_first` are taken before the others.
+    /// All `count` registers are free. Those in `taken_first` are used before the others.
     pub fn new(count: usize, taken_first: u32, first_uses: Vec<u32>) -> Self {
         Registers {
             count,
@@ -60,12 +60,12 @@ impl Registers {
         (register != NONE).then_some(Vector(register))
     }
 
-    /// Whether a register is free.
+    /// True if a register is free.
     pub fn any_free(&self) -> bool {
         self.free != 0
     }
 
-    /// A free register; it is not taken by this.
+    /// A free register, which remains free until [`put`](Self::put).
     pub fn free(&self) -> Option<Vector> {
         let first = self.free & self.taken_first;
         let candidates = if first != 0 { first } else { self.free };

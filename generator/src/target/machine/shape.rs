@@ -1,4 +1,4 @@
-//! What the values of a program are.
+//! Length and precision of the values of a program.
 
 /// The part of a register that an instruction works on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,14 +35,14 @@ impl Precision {
 /// The length and precision of an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// The part of a register that it works on.
+    /// The part of a register that the instruction works on.
     pub length: Length,
-    /// The numbers that it works on.
+    /// The numbers that the instruction works on.
     pub precision: Precision,
 }
 
 impl Shape {
-    /// Number of bytes of memory that it reads or writes.
+    /// Number of bytes of memory that the instruction reads or writes.
     pub const fn bytes(self) -> u32 {
         match self.length {
             Length::Scalar => self.precision.bytes(),
@@ -52,7 +52,7 @@ impl Shape {
         }
     }
 
-    /// The whole register that contains it: moves and bitwise operations of registers work on whole registers.
+    /// The shape of the whole register: moves between registers and bitwise operations work on whole registers.
     pub(crate) const fn whole(self) -> Shape {
         match self.length {
             Length::Scalar => Shape {
@@ -67,10 +67,10 @@ impl Shape {
 /// The scalar that code is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Values {
-    /// The part of a register that a value takes.
+    /// The part of a register that a value takes up.
     pub shape: Shape,
-    /// Whether a · b + c is rounded once; otherwise it is rounded twice.
+    /// True if a · b + c is rounded once, false if it is rounded twice.
     pub fused: bool,
-    /// Whether every scalar is a dual number: a value and, in the next slot, its slope.
+    /// True if every scalar is a dual number: a value and, in the next slot, its slope.
     pub slopes: bool,
 }

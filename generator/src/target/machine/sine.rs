@@ -1,16 +1,18 @@
 //! Sine and cosine of doubles, written out as steps in place of a call.
 //!
-//! The steps follow the runtime (`runtime/src/real/lanes/elementary/circle.rs`, which explains them) operation by operation, so they give the same
-//! bits. Angles beyond 2¹⁶ are rare; they take a branch to the function of the runtime: see `rare`.
+//! The steps follow the runtime (`runtime/src/real/lanes/elementary/circle.rs`, which explains them) operation by
+//! operation, so they give the same bits. Angles beyond 2¹⁶ are rare; for them the code branches to the function of the
+//! runtime: see `rare`.
 
 use super::numbers::Signed;
 use super::operation::{Binary, Bitwise};
 use super::steps::{Callee, Lowering};
 use super::terms::Term;
 
-/// The square of 2¹⁶.
+/// The square of 2¹⁶, the largest angle that is not rare.
 const LIMIT: f64 = 4_294_967_296.0;
-/// 1.5 · 2⁵²: adding it rounds to the nearest whole number; the last bits of the sum are those of that number.
+/// 1.5 · 2⁵²: adding it to a number rounds the number to the nearest whole number; the last bits of the sum are those
+/// of the whole number.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// π/2 in three parts: 37 bits, the next 37 bits, and the rest.
 const QUARTER_TURN: [f64; 3] = [
@@ -61,7 +63,7 @@ impl Lowering<'_> {
     /// (sin x, cos x)
     fn sin_cos_of_number(&mut self, x: Signed) -> [Signed; 2] {
         let n = &mut self.numbers;
-        // k, still in the last bits of a large number; then r = hi − low
+        // k is the last bits of the large number `turned`; then r = hi − low
         let (turns, round) = (n.number(std::f64::consts::FRAC_2_PI), n.number(ROUND));
         let turned = n.mul_add(x, turns, round);
         let k = n.sum(turned, round.negated());
@@ -89,10 +91,10 @@ impl Lowering<'_> {
         let small = n.mul_add(fourth, c, lost);
         let cosine = n.sum(large, small);
 
-        // odd k: exchanged; the sine is negative for k mod 4 = 2, 3, the cosine for 1, 2
+        // for odd k, sine and cosine are exchanged; the sine is negative for k mod 4 = 2, 3, the cosine for 1, 2
         let turned = n.with_sign(turned);
         let (second_bit, first_bit) = (n.shifted_left(turned, 62), n.shifted_left(turned, 63));
-        // the only bit of this constant is the first bit of k
+        // the only bit of the constant 2.0 is where the shift has put the first bit of k
         let two = n.constant(2.0);
         let odd = Signed::plain(n.bits(Bitwise::And, second_bit, two));
         let sign = n.constant(-0.0);

@@ -1,23 +1,23 @@
 //! Slots of the frame: places for values that have no register.
 
-/// Which slots are taken.
+/// Keeps track of which slots are taken.
 #[derive(Default)]
 pub(crate) struct Slots {
-    /// A bit for each slot, set where it is free.
+    /// A bit for each slot: 1 if the slot is free.
     free: Vec<u64>,
     /// Index of the first word that may have a free slot.
     first: usize,
-    /// Number of slots that were ever taken.
+    /// Number of slots that the frame needs so far.
     count: u32,
 }
 
 impl Slots {
-    /// Number of slots that were ever taken.
+    /// Number of slots that the frame needs so far.
     pub fn count(&self) -> u32 {
         self.count
     }
 
-    /// Takes a slot.
+    /// Takes a free slot, or a new one.
     pub fn take(&mut self) -> u32 {
         while let Some(word) = self.free.get_mut(self.first) {
             if *word != 0 {
@@ -31,7 +31,7 @@ impl Slots {
         self.take_new(1)
     }
 
-    /// Takes so many neighbouring slots and returns the first.
+    /// Takes `count` neighbouring slots and returns the first.
     pub fn take_several(&mut self, count: u32) -> u32 {
         if count == 1 {
             return self.take();
@@ -64,7 +64,7 @@ impl Slots {
         self.free[slot as usize / 64] >> (slot % 64) & 1 != 0
     }
 
-    /// Takes slots that were never taken before.
+    /// Takes `count` new slots at the end of the frame.
     fn take_new(&mut self, count: u32) -> u32 {
         let start = self.count;
         self.count += count;

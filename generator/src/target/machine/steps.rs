@@ -1,4 +1,5 @@
-//! Turns a list into steps of the processor. Each value of the list becomes a term: a number with its sign and, over dual numbers, its slope.
+//! Turns a list into steps for a processor. Each value of the list becomes a term: a number with its sign and, over
+//! dual numbers, its slope.
 
 use super::numbers::{Numbers, Signed};
 use super::operation::{Binary, Bitwise, Signs};
@@ -8,14 +9,14 @@ use crate::expression::Function;
 use crate::program::{Curve, Input, List, Operation, Value};
 use rustc_hash::FxHashMap;
 
-/// A function that is called.
+/// A function that machine code calls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Callee {
     /// A function of one argument, with the results sine and cosine.
     SinCos,
-    /// A function of two arguments: the angle of the point (second, first).
+    /// A function of two arguments y, x: the angle of the point (x, y).
     Atan2,
-    /// A function of the runtime or of the user; if it has several results, its first part.
+    /// A function of the runtime or of the user; for one with several results, the call of its first part.
     Function(Function),
 }
 
@@ -43,9 +44,10 @@ pub(crate) enum Kind {
     Bits(Bitwise),
     /// The bits of the first operand, shifted left.
     ShiftLeft(u8),
-    /// The last arguments, unless the first argument is, in any lane, not below the limit, which is a constant; then the results of a function. The
-    /// arguments, from `first` on, are: a size, the numbers that are passed to the function, and its results for numbers that are not rare, of which
-    /// this is the last use. The function handles all numbers. Each number passed or returned takes `slots` slots.
+    /// The last arguments if the first argument is below the constant `limit` in all lanes, otherwise the results of a
+    /// function. The arguments, from `first` on, are: a size, the numbers that are passed to the function, and its
+    /// results for numbers that are not rare, of which this is the last use. The function handles all numbers. Each
+    /// number passed or returned takes `slots` slots.
     Rare {
         callee: u32,
         limit: u32,
@@ -56,7 +58,8 @@ pub(crate) enum Kind {
     },
     /// The third operand where the first is less than the second, otherwise the fourth.
     Select,
-    /// A call. Its operands are `arguments` from `first` on. It defines as many values as the function has results.
+    /// A call. Its arguments are the entries of [`Steps::arguments`] from `first` on. It defines as many values as the
+    /// function has results.
     Call {
         callee: u32,
         first: u32,
@@ -65,17 +68,17 @@ pub(crate) enum Kind {
     },
 }
 
-/// Roughly one instruction. Unused operands repeat the first one.
+/// Roughly one instruction. Unused operands repeat the first operand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
     pub kind: Kind,
     pub operands: [u32; 4],
-    /// The first value that it defines.
+    /// The first value that the step defines.
     pub defines: u32,
 }
 
 impl Step {
-    /// The operands, without arguments.
+    /// The operands in use. The arguments of a call are not among them.
     pub fn operands(&self) -> &[u32] {
         let count = match self.kind {
             Kind::Binary(_) | Kind::Bits(_) => 2,
@@ -87,7 +90,7 @@ impl Step {
         &self.operands[..count]
     }
 
-    /// The range of its arguments.
+    /// The range of the step's arguments in [`Steps::arguments`].
     pub fn arguments(&self) -> std::ops::Range<usize> {
         let (first, count) = match self.kind {
             Kind::Call {
@@ -105,21 +108,21 @@ impl Step {
     }
 }
 
-/// All steps.
+/// The steps of a list, with their values.
 #[derive(Default)]
 pub(crate) struct Steps {
     /// The origin of each value.
     pub origins: Vec<Origin>,
     pub steps: Vec<Step>,
-    /// Arguments of calls.
+    /// Arguments of all calls.
     pub arguments: Vec<u32>,
-    /// A value for each result of the list, each followed by its slope if slopes are computed.
+    /// The value of each result of the list, followed by the value of its slope if slopes are computed.
     pub results: Vec<u32>,
-    /// The functions, in the order of their first call.
+    /// The functions that are called, in the order of their first call.
     pub callees: Vec<Callee>,
 }
 
-/// The steps of a list. Operations that no result depends on are left out.
+/// Makes the steps of a list. Operations that no result depends on are left out.
 pub(crate) fn steps(list: &List, curves: &[Curve], values: &Values) -> Steps {
     let doubles = values.shape.precision == Precision::Double;
     let mut lowering = Lowering {
@@ -138,7 +141,8 @@ pub(crate) fn steps(list: &List, curves: &[Curve], values: &Values) -> Steps {
         is_result[result.0 as usize] = true;
     }
     let leaves = list.constants.len() + list.inputs.len();
-    // a call as early as possible finds few values in registers, which would have to be stored
+    // calls that depend on constants and inputs alone come first: few values are then in registers, which a call would
+    // have to store
     let at_once = |operation: &Operation| match operation {
         Operation::SinCos(a) => !doubles && (a.0 as usize) < leaves,
         _ => false,
@@ -153,7 +157,7 @@ pub(crate) fn steps(list: &List, curves: &[Curve], values: &Values) -> Steps {
                 continue;
             }
             lowering.operation(*operation, defined.start);
-            // early, so that it is not kept for later
+            // negates a result at once, so that the operand is not kept in a register for it
             for value in defined.filter(|value| is_result[*value]) {
                 let _ = lowering.plain(Value(value as u32));
             }
@@ -166,7 +170,7 @@ pub(crate) fn steps(list: &List, curves: &[Curve], values: &Values) -> Steps {
     lowering.numbers.steps
 }
 
-/// For each value of a list, whether a result depends on it.
+/// For each value of a list, true if a result depends on it.
 fn live(list: &List) -> Vec<bool> {
     let mut live = vec![false; list.values()];
     for result in &list.results {
@@ -188,11 +192,11 @@ fn live(list: &List) -> Vec<bool> {
 pub(crate) struct Lowering<'a> {
     list: &'a List,
     pub curves: &'a [Curve],
-    /// Whether every value has a slope.
+    /// True if every value has a slope.
     pub slopes: bool,
-    /// Whether a number is one lane.
+    /// True if a number takes one lane.
     pub one_lane: bool,
-    /// Whether sine, cosine and `atan2` are steps, not calls.
+    /// True if sine, cosine and `atan2` are written out as steps, not called.
     writes_elementary: bool,
     /// The term of each value of the list.
     of: Vec<Option<Term>>,
@@ -297,8 +301,9 @@ impl Lowering<'_> {
         }
     }
 
-    /// Results that were computed for numbers that are not rare. If a size is not below a limit in all lanes, the results of a function replace them.
-    /// Each number passed to the function or returned takes `slots` slots.
+    /// The given results, which were computed for numbers that are not rare. Unless a size is below a limit in all
+    /// lanes, the results of a function replace them. Each number passed to the function or returned takes `slots`
+    /// slots.
     pub fn unless_rare(
         &mut self,
         callee: Callee,
@@ -342,7 +347,7 @@ impl Lowering<'_> {
             return term;
         }
         let constants = &self.list.constants;
-        // operations come before the uses of their results
+        // an operation has set its term already: what is left are constants and inputs
         let term = match constants.get(index) {
             Some(number) => self.number(*number),
             None => {

@@ -1,15 +1,16 @@
 //! Steps on numbers together with their slopes.
 //!
-//! A term is a number and, if code is made for dual numbers, its slope. The slope has as many lanes as the number, with a direction in each lane.
-//! The steps follow the runtime for dual numbers (`runtime/src/real/dual.rs`) operation by operation, so slopes have the same bits, also the sign
-//! of zeros. The slope of a constant is the constant 0. A product with it stays, because it decides the sign of a zero, and shows that a factor
-//! is not finite. But nothing is added or subtracted that cannot change a bit.
+//! A term is a number and, if code is made for dual numbers, its slope. The slope has as many lanes as the number, with
+//! a direction in each lane. The steps follow the runtime for dual numbers (`runtime/src/real/dual.rs`) operation by
+//! operation, so slopes have the same bits, including the sign of zeros. The slope of a constant is the constant 0. A
+//! product with this 0 stays, because it decides the sign of a zero, and is NaN if the other factor is not finite. But
+//! no addition or subtraction that cannot change a bit is emitted.
 
 use super::numbers::Signed;
 use super::operation::Binary;
 use super::steps::Lowering;
 
-/// A number, and its slope if slopes are computed.
+/// A number and, if slopes are computed, its slope.
 #[derive(Clone, Copy)]
 pub(crate) struct Term {
     pub value: Signed,
@@ -17,7 +18,7 @@ pub(crate) struct Term {
 }
 
 impl Term {
-    /// The same with the other sign.
+    /// The term with the opposite sign.
     pub fn negated(self) -> Term {
         Term {
             value: self.value.negated(),
@@ -26,7 +27,7 @@ impl Term {
     }
 }
 
-/// The slopes of several terms; `None` if they have none.
+/// The slopes of several terms; `None` if slopes are not computed.
 fn slopes<const N: usize>(of: [Term; N]) -> Option<[Signed; N]> {
     let mut slopes = of.map(|term| term.value);
     for (slope, term) in slopes.iter_mut().zip(of) {
@@ -70,7 +71,7 @@ impl Lowering<'_> {
         Term { value, slope }
     }
 
-    /// a b + c, rounded once if the target can: (a b + c)′ = a′ b + (a b′ + c′).
+    /// a b + c, rounded once if the target has fused operations: (a b + c)′ = a′ b + (a b′ + c′).
     pub fn mul_add(&mut self, a: Term, b: Term, c: Term) -> Term {
         let value = self.numbers.mul_add(a.value, b.value, c.value);
         let slope = slopes([a, b, c]).map(|[f, g, h]| {
@@ -91,7 +92,7 @@ impl Lowering<'_> {
         Term { value, slope }
     }
 
-    /// An argument that is not negative; but 1 where both it and the motion are 0.
+    /// The argument, which must not be negative; 1 if both the argument and the motion are 0.
     pub fn away_from_zero(&mut self, argument: Signed, motion: Signed) -> Signed {
         let numbers = &mut self.numbers;
         let (zero, one) = (numbers.number(0.0), numbers.number(1.0));
@@ -100,14 +101,14 @@ impl Lowering<'_> {
         numbers.select([zero, argument], argument, at_zero)
     }
 
-    /// The larger one with its slope; `a` where either is NaN.
+    /// The larger term, with its slope; `a` if either is NaN.
     pub fn larger(&mut self, a: Term, b: Term) -> Term {
         let value = self.numbers.extreme(Binary::Max, a.value, b.value);
         let slope = slopes([a, b]).map(|[f, g]| self.numbers.slope_where([a.value, b.value], g, f));
         Term { value, slope }
     }
 
-    /// The smaller one with its slope; `a` where either is NaN.
+    /// The smaller term, with its slope; `a` if either is NaN.
     pub fn smaller(&mut self, a: Term, b: Term) -> Term {
         let value = self.numbers.extreme(Binary::Min, a.value, b.value);
         let slope = slopes([a, b]).map(|[f, g]| self.numbers.slope_where([b.value, a.value], g, f));

@@ -5,7 +5,7 @@ use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 
 impl Argument {
-    /// Name and type; the name begins with an underscore where nothing reads it.
+    /// The name and type of the argument. The name begins with an underscore if no code reads the argument.
     pub(crate) fn declaration(self, read: bool) -> TokenStream {
         let name = format_ident!("{}{}", if read { "" } else { "_" }, self.name());
         match self.array() {
@@ -14,7 +14,7 @@ impl Argument {
         }
     }
 
-    /// Type of a field of a struct that borrows for `'a`.
+    /// The type of a field that borrows the argument for `'a`.
     pub(crate) fn borrowed(self) -> TokenStream {
         match self.array() {
             None => quote!(T),

@@ -1,16 +1,17 @@
-//! Comments in text made of tokens, which have none: an attribute stands for a comment until the text is formatted.
+//! Comments in generated Rust text. Tokens cannot hold comments, so an attribute stands for each comment until the text
+//! is formatted.
 
 use syn::{Attribute, parse_quote};
 
 const MARK: &str = "@comment ";
 
-/// The attribute that becomes a comment above a statement; none for an empty comment.
+/// The attribute that becomes a comment above a statement; `None` if the comment is empty.
 pub(crate) fn marked(text: &str) -> Option<Attribute> {
     let marked = format!("{MARK}{}", crate::names::plain(text));
     (!text.is_empty()).then(|| parse_quote!(#[doc = #marked]))
 }
 
-/// Turns marked attributes into comments, and sets an empty line above each and between items.
+/// Turns marked attributes into comments, and inserts an empty line above each of them and between items.
 pub(crate) fn splice(formatted: &str) -> String {
     let mut text = String::with_capacity(formatted.len() + formatted.len() / 16);
     let (mut start_of_block, mut end_of_item) = (true, false);
@@ -35,7 +36,7 @@ pub(crate) fn splice(formatted: &str) -> String {
         }
         text.push('\n');
         start_of_block = bare.ends_with('{');
-        // Items stand at the margin, and in an `impl` one step from it; statements stand deeper.
+        // Items have no indentation, those in an `impl` one level; statements have more.
         end_of_item = match indent {
             0 => bare.ends_with(['}', ';']),
             4 => bare == "}",

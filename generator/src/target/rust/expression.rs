@@ -1,4 +1,4 @@
-//! Formulas as Rust. Which operations they are made of, and where brackets stand, is said by [`crate::program::formula`].
+//! Prints formulas as Rust. Their operations and brackets are decided by [`crate::program::formula`].
 
 use super::library::Library;
 use super::naming::Naming;
@@ -12,11 +12,11 @@ use quote::quote;
 use std::cell::Cell;
 use syn::{BinOp, Expr};
 
-/// What named values, inputs and numbers are called where that is not by their own names.
+/// Words to print in place of the usual names of values, numbers and places of results.
 pub(crate) trait Words {
     fn value(&self, id: NodeId) -> Expr;
     fn number(&self, value: f64) -> Expr;
-    /// The place among the results that something is put into a writer at.
+    /// The index at which a result is put into the writer.
     fn place(&self, place: usize) -> Expr;
 }
 
@@ -27,7 +27,7 @@ pub(crate) struct Printer<'a> {
     names: &'a Naming,
     inputs: &'a Inputs,
     library: &'a Library,
-    /// They are a field of the mechanism otherwise.
+    /// True if parameters are an argument; false if they are a field of the mechanism.
     parameters_are_argument: bool,
     numbers: Cell<bool>,
     words: Option<&'a dyn Words>,
@@ -53,7 +53,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The same in other words.
+    /// A printer of the same schedule that uses these words.
     pub(crate) fn in_words(&self, words: &'a dyn Words) -> Self {
         Self {
             words: Some(words),
@@ -62,7 +62,7 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// True where a number was printed, and so `num` is needed.
+    /// True if a number has been printed, so that the function `num` is needed.
     pub(crate) fn prints_numbers(&self) -> bool {
         self.numbers.get()
     }
@@ -83,12 +83,12 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// A value where it is used: its name, or its formula if it has none.
+    /// A value as it is written in a formula: its name, or its own formula if it has no name.
     pub(crate) fn value(&self, id: NodeId) -> Expr {
         self.formulas().value(id)
     }
 
-    /// What a statement computes: one value, a pair or a list.
+    /// The right-hand side of a statement: one value, a pair or a list.
     pub(crate) fn statement(&self, statement: Statement) -> Expr {
         match statement {
             Statement::Value(id) => self.formulas().formula(id),
@@ -124,7 +124,7 @@ impl<'a> Printer<'a> {
                 syntax::field(parameters, &self.inputs.parameters[i])
             }
             Input::Derived(i) => syntax::field(syntax::word("self"), &self.inputs.derived[i]),
-            // Arguments are taken apart, so that their elements have names.
+            // Arguments that are arrays are destructured, so that their elements have names.
             Input::Time => syntax::word("t"),
             Input::Coordinate(i) => syntax::element("q", i),
             Input::Velocity(i) => syntax::element("v", i),
@@ -204,13 +204,13 @@ impl Form for Printer<'_> {
     }
 }
 
-/// What is called.
+/// The function that a call in the graph refers to.
 pub(crate) enum Callee<'a> {
-    /// A method of a constant.
+    /// A method of a constant, such as a curve.
     Method { of: &'a str, name: &'static str },
     /// A function by its path.
     Function(&'static str),
-    /// The same, of one array.
+    /// A function of one array, by its path.
     Adapter(&'a str),
 }
 
@@ -228,7 +228,7 @@ pub(crate) fn scalar(value: f64) -> Expr {
     syntax::call(syntax::word("num"), [value])
 }
 
-/// A name as a token.
+/// A name as an identifier token.
 pub(crate) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())
 }
@@ -245,7 +245,7 @@ pub(crate) fn number(value: f64) -> TokenStream {
     }
 }
 
-/// The size of a finite number.
+/// The digits of the absolute value of a finite number; `None` for any other number.
 fn digits(value: f64) -> Option<Literal> {
     // `Literal::f64_unsuffixed` writes 1e300 with all its zeros; `{:?}` does not.
     let text = format!("{:?}", value.abs());

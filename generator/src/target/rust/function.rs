@@ -1,4 +1,4 @@
-//! From scheduled values to a method: arguments, one `let` per line, comments, results, and the pieces of what is too long.
+//! Writes a scheduled method: arguments, one `let` per line, comments, results, and pieces if the method is long.
 
 use super::comment;
 use super::expression::{Printer, ident};
@@ -18,21 +18,22 @@ use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 use syn::{Attribute, Block, ImplItemFn, Stmt, parse_quote};
 
-/// A method about to be written.
+/// A method that is about to be written.
 pub(crate) struct Writer<'a> {
     pub method: Specification,
     pub schedule: Schedule,
     pub names: Naming,
-    /// None where it is written in calls.
+    /// The pieces of the method; empty if the method is written as calls of subroutines.
     pub pieces: Vec<Piece>,
-    /// Whether the pieces are functions of their own, and not merged into one.
+    /// True if the pieces remain functions of their own, false if the compiler merges them into one.
     pub apart: bool,
     pub inputs: &'a Inputs,
     pub library: &'a Library,
 }
 
 impl Writer<'_> {
-    /// What pieces hand on, and the pieces followed by the method that calls them; the method alone where there is one piece.
+    /// The structs that pieces return, and the pieces followed by the method that calls them. If there is only one
+    /// piece, the method alone.
     pub(crate) fn in_pieces(&self) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
         if let [piece] = &self.pieces[..] {
             let arguments = self.arguments(piece);
@@ -69,13 +70,13 @@ impl Writer<'_> {
         )
     }
 
-    /// The public method around a body that reads these arguments.
+    /// The public method with this body. `reads` are the arguments that the body reads.
     pub(crate) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
         let puts_any = !self.schedule.roots.is_empty();
         public_method(&self.method, reads, puts_any, body)
     }
 
-    /// One piece. Release builds merge it into its caller, or into its task.
+    /// One piece as a method. Release builds inline it into its caller, or into its task.
     fn piece(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> ImplItemFn {
         let name = format_ident!("{}_part_{}", self.method.name, i + 1);
         let (number, of) = (i + 1, self.pieces.len());
@@ -128,7 +129,7 @@ impl Writer<'_> {
         quote!(let #part = #call;)
     }
 
-    /// The struct by which a piece is called as a function of its own.
+    /// The struct (a `Task`) through which a piece is called as a function of its own.
     fn task(&self, i: usize, arguments: &BTreeSet<Argument>, sources: &[usize]) -> TokenStream {
         let piece = format_ident!("{}_part_{}", self.method.name, i + 1);
         let name = self.task_type(i);
@@ -167,7 +168,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether a piece hands anything over.
+    /// True if a piece puts results into the writer.
     fn puts(&self, i: usize) -> bool {
         let lines = &self.schedule.lines[self.pieces[i].lines.clone()];
         lines
@@ -179,7 +180,7 @@ impl Writer<'_> {
         format_ident!("{}Task{}", camel(self.method.name), i + 1)
     }
 
-    /// What a piece returns.
+    /// The type that a piece returns.
     fn returned(&self, i: usize) -> TokenStream {
         if i + 1 == self.pieces.len() {
             return results::returned(self.method.results);
@@ -191,12 +192,12 @@ impl Writer<'_> {
         quote!(#part<T>)
     }
 
-    /// Whether later pieces need anything of a piece, and not the writer alone.
+    /// True if later pieces need values of this piece.
     fn hands_on(&self, i: usize) -> bool {
         !self.pieces[i].passes_on.is_empty()
     }
 
-    /// The struct that a piece returns.
+    /// The struct of the values that a piece returns.
     fn handed_on(&self, i: usize) -> TokenStream {
         let name = self.part_type(i);
         let fields = self.pieces[i]
@@ -215,12 +216,12 @@ impl Writer<'_> {
         format_ident!("{}Part{}", camel(self.method.name), i + 1)
     }
 
-    /// Which arguments a piece reads.
+    /// The arguments that a piece reads.
     fn arguments(&self, piece: &Piece) -> BTreeSet<Argument> {
         self.arguments_of(&piece.reads)
     }
 
-    /// To which arguments values belong.
+    /// The arguments to which these values belong.
     pub(crate) fn arguments_of(&self, reads: &BTreeSet<NodeId>) -> BTreeSet<Argument> {
         let symbols = reads
             .iter()
@@ -231,7 +232,7 @@ impl Writer<'_> {
         symbols.filter_map(|input| input.argument()).collect()
     }
 
-    /// From which earlier pieces a piece reads.
+    /// The indices of the earlier pieces whose values a piece reads.
     fn sources(&self, piece: &Piece) -> Vec<usize> {
         let reads = |part: &Piece| part.passes_on.iter().any(|id| piece.reads.contains(id));
         (0..self.pieces.len())
@@ -253,7 +254,7 @@ impl Writer<'_> {
             TokenStream::new()
         };
 
-        // Whether there are numbers is known only now.
+        // Only now is it known whether numbers were printed.
         let num = printer
             .prints_numbers()
             .then(|| quote!(let num = T::from_f64;));
@@ -267,7 +268,7 @@ impl Writer<'_> {
         body
     }
 
-    /// `let &Part { a, b, .. } = part;`: the values of an earlier piece that a piece reads.
+    /// `let &Part { a, b, .. } = part;`: takes the values that a piece reads from an earlier piece.
     fn take_over(&self, piece: &Piece, source: usize) -> TokenStream {
         let passed = &self.pieces[source].passes_on;
         let read = passed.iter().filter(|id| piece.reads.contains(id));
@@ -280,7 +281,7 @@ impl Writer<'_> {
         quote!(let &#of { #(#names,)* #rest } = #part;)
     }
 
-    /// `let &[_, z, ..] = q;`: the elements that a piece reads, by name.
+    /// `let &[_, z, ..] = q;`: names the elements of an argument that a piece reads.
     pub(crate) fn destructure(
         &self,
         reads: &BTreeSet<NodeId>,
@@ -298,7 +299,7 @@ impl Writer<'_> {
         if names.iter().all(Option::is_none) {
             return None;
         }
-        // The longest run of what is not read becomes `..`.
+        // The longest run of unread elements becomes `..`.
         let run = |start: usize| {
             names[start..]
                 .iter()
@@ -328,8 +329,9 @@ impl Writer<'_> {
         Some(quote!(let &[#(#patterns),*] = #array;))
     }
 
-    /// Whether inputs are read where they are first used, and not at the top. What is put into a sink in between might lie where inputs do,
-    /// so a compiler never moves their reading past it: read at the top, all of them would wait for their use in memory.
+    /// True if inputs are read just before their first use, instead of at the top. For all a compiler knows, the memory
+    /// that a writer writes may overlap the inputs, so it never moves the reading of an input past a write. Inputs that
+    /// are read at the top would all have to be kept in memory until their use.
     fn reads_late(&self) -> bool {
         self.method.results.one_by_one()
     }
@@ -343,7 +345,8 @@ impl Writer<'_> {
             .map(|line| line.begins(&mut current))
             .map(|section| section.map(|section| sections[section].as_str()))
             .collect();
-        // What is read late is read by section, and each input that is put into a writer as it is by itself.
+        // Late inputs are read at the beginning of each section, except an input that is itself a result: it is read
+        // just before it is put into the writer.
         let reads = |number: usize| {
             let leaf = |place: usize| {
                 self.schedule
@@ -372,7 +375,8 @@ impl Writer<'_> {
         written
     }
 
-    /// The elements of arguments that lines read and `read` does not have yet, argument by argument.
+    /// The elements of arguments that the lines read and that `read` does not contain yet, grouped by argument. Adds
+    /// them to `read`.
     fn elements_read(&self, lines: &[Line], read: &mut BTreeSet<NodeId>) -> Vec<Vec<Element>> {
         let mut found = BTreeSet::new();
         for line in lines {
@@ -406,7 +410,7 @@ impl Writer<'_> {
         }
     }
 
-    /// `let name = formula;` or `writer.put(place, formula);`, under a comment.
+    /// `let name = formula;` or `writer.put(place, formula);`, with a comment above it.
     pub(crate) fn line(
         &self,
         statement: Statement,
@@ -445,10 +449,10 @@ impl Writer<'_> {
     }
 }
 
-/// An element of an argument: its place there, and the input that it is.
+/// An element of an argument: the argument, the index in it, and the node of the input.
 type Element = (Argument, usize, NodeId);
 
-/// The parts of a task that are about a writer.
+/// The parts of the declaration of a task that concern the writer.
 #[derive(Default)]
 pub(crate) struct WriterOfTask {
     pub generic: TokenStream,
@@ -458,7 +462,7 @@ pub(crate) struct WriterOfTask {
 }
 
 impl WriterOfTask {
-    /// All empty where it has none.
+    /// The parts for a task with a writer; all are empty if the task puts no results.
     pub(crate) fn of(puts: bool) -> Self {
         match puts {
             true => WriterOfTask {
@@ -472,7 +476,7 @@ impl WriterOfTask {
     }
 }
 
-/// `-> Type`, or nothing.
+/// `-> Type`; nothing for `()`.
 pub(crate) fn arrow(returned: &TokenStream) -> TokenStream {
     match returned.to_string().as_str() {
         "()" => TokenStream::new(),

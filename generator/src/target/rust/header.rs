@@ -1,4 +1,4 @@
-//! What a reader of the emitted text sees first: what the model is, and what its methods cost.
+//! The comment at the top of the generated text: a description of the model, and the cost of its methods.
 
 use super::method::Function;
 use super::operations;
@@ -6,7 +6,7 @@ use crate::equations::Equations;
 use crate::model::Model;
 use crate::program::about;
 
-/// The comment at the top of a module, ending in a newline.
+/// The comment at the top of a module. It ends in a newline.
 pub(crate) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
     let mut text = String::new();
     for said in about(model, equations) {
@@ -16,7 +16,7 @@ pub(crate) fn header(model: &Model, equations: &Equations, functions: &[Function
     text
 }
 
-/// Adds a line of comment.
+/// Adds a line of comment to a text.
 pub(crate) fn line(text: &mut String, content: impl AsRef<str>) {
     text.push_str("//");
     let content = content.as_ref().trim_end();

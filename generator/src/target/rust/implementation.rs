@@ -1,4 +1,5 @@
-//! The model as the runtime wants it: the trait `Model`, by the methods at parts of a state.
+//! Writes the implementation of the trait `Model` for the runtime; it calls the methods that take the parts of a state
+//! (q, v, z, m).
 
 use super::expression::ident;
 use super::library::Library;
@@ -11,7 +12,7 @@ use crate::program::neighbours;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 
-/// The implementation of the trait, and the functions that it calls beside methods.
+/// The implementation of the trait, and the helper functions that it calls besides the methods.
 pub(crate) fn implementation(
     equations: &Equations,
     methods: &[Specification],
@@ -67,17 +68,17 @@ pub(crate) fn implementation(
     }
 }
 
-/// What a state has besides q and v, and how it is taken apart.
+/// Whether a state has z (auxiliaries) and m (memory), and code that splits a state into its parts.
 struct State {
     z: bool,
     m: bool,
     /// A statement that names all parts of `y`.
     split: TokenStream,
-    /// What methods at parts of a state are given.
+    /// The arguments of a call of a method that takes the parts of a state.
     arguments: TokenStream,
 }
 
-/// The methods that come first in the implementation; others follow in the order of their table.
+/// The methods that come first in the implementation. Others follow in the order of the table of methods.
 const FIRST: [&str; 5] = [
     "outputs",
     "kinetic_energy",
@@ -146,7 +147,7 @@ impl State {
         }
     }
 
-    /// The rate of the state, and that of q alone.
+    /// The method for the rate of the whole state, and the method for the rate of q alone.
     fn rates(&self) -> TokenStream {
         let Self {
             split, arguments, ..
@@ -188,7 +189,7 @@ impl State {
         }
     }
 
-    /// The methods of the trait that are methods at parts of a state, as they are.
+    /// The methods of the trait that only split the state and call a method that takes its parts.
     fn at_states(&self, methods: &[Specification]) -> Vec<TokenStream> {
         let place = |method: &&Specification| {
             let place = FIRST.iter().position(|&first| first == method.name);
@@ -268,7 +269,7 @@ impl State {
     }
 }
 
-/// Which condition parameters break, where they must keep any.
+/// The method that returns the first condition that the parameters break; `None` if the model has no conditions.
 fn violated(equations: &Equations) -> Option<TokenStream> {
     let rules = equations
         .conditions
@@ -294,7 +295,8 @@ fn violated(equations: &Equations) -> Option<TokenStream> {
     })
 }
 
-/// The method by which the runtime asks for the others; nothing where there are none.
+/// The method that returns the next kink after a time, over all curves of time that a parameter stretches; `None` if
+/// there are no such curves.
 fn kink_after(equations: &Equations, library: &Library) -> Option<TokenStream> {
     let curves: Vec<Ident> = equations
         .stretched_curves_of_time()
@@ -311,9 +313,9 @@ fn kink_after(equations: &Equations, library: &Library) -> Option<TokenStream> {
     })
 }
 
-/// The functions that put a state together and take it apart.
+/// The functions that join the parts of a state, and split a state into its parts.
 fn states(has_z: bool, has_m: bool) -> TokenStream {
-    // (name, length, of what)
+    // (name, constant with its length)
     let mut parts = vec![("q", "COORDINATES"), ("v", "VELOCITIES")];
     if has_z {
         parts.push(("z", "AUXILIARIES"));
@@ -356,7 +358,7 @@ fn states(has_z: bool, has_m: bool) -> TokenStream {
             }
         };
     }
-    // all but the last are split off from the front
+    // each part but the last is split off at the front
     let front = &names[..names.len() - 1];
     let last = &names[names.len() - 1];
     let too_short = format!("a state is as long as {words} together");
@@ -400,7 +402,8 @@ fn normalize(equations: &Equations) -> TokenStream {
             }
         }
     });
-    // Backwards: what the last stage of a step found last is still near, and what the next one reads first is near then.
+    // From the last entry to the first: the last stage of a step has just written the last entries, so they are still
+    // in the cache; the next stage begins at the first entries, which are in the cache then.
     let mut changes = Vec::new();
     let mut end = quote!(STATE);
     for range in ranges.iter().rev() {
@@ -439,7 +442,7 @@ fn normalize(equations: &Equations) -> TokenStream {
     }
 }
 
-/// Entries that are no quaternions, changed.
+/// The loop that applies a change to the entries from `start` to `end`, which are no quaternions.
 fn changed(start: usize, end: &TokenStream) -> TokenStream {
     let start = Literal::usize_unsuffixed(start);
     quote! {
@@ -449,7 +452,7 @@ fn changed(start: usize, end: &TokenStream) -> TokenStream {
     }
 }
 
-/// What generated code scales quaternions by, where there are any.
+/// The function that scales a quaternion to length 1; `None` if the model has no quaternions.
 fn unit(equations: &Equations) -> Option<TokenStream> {
     (!equations.quaternions.is_empty()).then(|| {
         quote! {

@@ -1,4 +1,5 @@
-//! Everything of a module that is not a formula: imports, sizes, parameters, the mechanism, what the runtime is told.
+//! Writes all items of a module that are not formulas: imports, sizes, parameters, the mechanism, and the information
+//! for the runtime.
 
 use super::GENERATED_CODE_VERSION;
 use super::expression::{ident, number};
@@ -12,7 +13,7 @@ use crate::program::{Adjustable, Column, Facts, Watched};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-/// Imports, and the handshake with the runtime.
+/// The imports, and the check that the version of the runtime fits.
 pub(crate) fn uses(
     model: &Model,
     equations: &Equations,
@@ -62,7 +63,7 @@ pub(crate) fn uses(
     }
 }
 
-/// Constants for the lengths of q, v and the outputs.
+/// The constants for the lengths of q, v, the outputs and so on.
 pub(crate) fn sizes(equations: &Equations) -> TokenStream {
     let size = |text: &str, name: &str, size: usize| {
         let (text, name, size) = (
@@ -102,7 +103,7 @@ pub(crate) fn sizes(equations: &Equations) -> TokenStream {
     .collect()
 }
 
-/// Names of modules of constants.
+/// Names of the modules of constants.
 pub(crate) const INDICES: [&str; 6] = [
     "auxiliaries",
     "coordinates",
@@ -112,7 +113,8 @@ pub(crate) const INDICES: [&str; 6] = [
     "velocities",
 ];
 
-/// Modules of constants: the place of each coordinate, velocity, output and so on by its name. Only what a model has, has a module.
+/// Modules of constants that give the index of each coordinate, velocity, output and so on by its name. There is no
+/// module for a kind of entry that the model does not have.
 // Long: an entry for each module.
 pub(crate) fn indices(model: &Model, equations: &Equations, inputs: &Inputs) -> TokenStream {
     let facts = Facts::of(model, equations);
@@ -201,7 +203,7 @@ pub(crate) fn indices(model: &Model, equations: &Equations, inputs: &Inputs) -> 
     modules.collect()
 }
 
-/// The struct of what the model leaves adjustable.
+/// The struct of the parameters, which the model leaves adjustable.
 pub(crate) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
     let names: Vec<_> = inputs.parameters.iter().map(|name| ident(name)).collect();
     let indices: Vec<_> = (0..names.len()).map(Literal::usize_unsuffixed).collect();
@@ -277,7 +279,7 @@ pub(crate) fn parameters(model: &Model, inputs: &Inputs) -> TokenStream {
     }
 }
 
-/// "belt stiffness \[N/m\], 60000.0 unless set, from 5000.0 to 200000.0"
+/// The description of a parameter, such as "belt stiffness \[N/m\], 60000.0 unless set, from 5000.0 to 200000.0".
 fn describe(parameter: &Parameter) -> String {
     let mut text = plain(&parameter.name).replace('_', " ");
     if !parameter.unit.is_empty() {
@@ -292,7 +294,7 @@ fn describe(parameter: &Parameter) -> String {
     }
 }
 
-/// The struct that has the methods.
+/// The struct `Mechanism`, which has the methods.
 pub(crate) fn mechanism(inputs: &Inputs) -> TokenStream {
     let names = inputs.derived.iter().map(|name| ident(name));
     let texts = inputs
@@ -312,7 +314,7 @@ pub(crate) fn mechanism(inputs: &Inputs) -> TokenStream {
     }
 }
 
-/// Names, units and sizes.
+/// The constant `INFO`: names, units and sizes.
 // Long: an entry for each field of the runtime's `Info`.
 pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let facts = Facts::of(model, equations);

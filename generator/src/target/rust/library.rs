@@ -1,4 +1,4 @@
-//! What the emitted text calls outside itself: curves, as constants of the module, and the force laws of the runtime.
+//! Everything that the generated text calls: curves, as constants of the module, and the force laws of the runtime.
 
 use super::expression::{Callee, ident, number};
 use super::user::Users;
@@ -9,7 +9,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use std::collections::BTreeSet;
 
-/// The curves of a model by the names of their constants.
+/// The names of the constants of a model's curves, and the modules of the user's functions.
 pub(crate) struct Library {
     names: Vec<String>,
     users: Users,
@@ -43,12 +43,13 @@ impl Library {
         }
     }
 
-    /// The modules of the user's functions.
+    /// The text of the modules of the user's functions.
     pub(crate) fn users(&self, model: &Model) -> String {
         self.users.text(model, &self.names)
     }
 
-    /// The function that stands for all that are called alike: of forces that call the same function of the user's, the first.
+    /// The function that represents all equal ones: if several forces call the same function of the user, that of the
+    /// first of them.
     pub(crate) fn first_alike(&self, function: Function) -> Function {
         match function {
             Function::User(call) => Function::User(UserCall {
@@ -59,17 +60,17 @@ impl Library {
         }
     }
 
-    /// Where they stand.
+    /// The modules of the user's functions.
     pub(crate) fn user_modules(&self) -> &Users {
         &self.users
     }
 
-    /// The constant of a curve.
+    /// The name of the constant of a curve.
     pub(crate) fn name(&self, curve: usize) -> &str {
         &self.names[curve]
     }
 
-    /// What a call of the graph calls.
+    /// The Rust function or method that a call in the graph refers to.
     pub(crate) fn callee(&self, function: Function) -> Callee<'_> {
         let method = |curve: u32, name| Callee::Method {
             of: &self.names[curve as usize],
@@ -96,7 +97,7 @@ impl Library {
         }
     }
 
-    /// The constant of one curve.
+    /// The definition of the constant of a curve.
     pub(crate) fn constant(&self, model: &Model, curve: usize) -> TokenStream {
         let (name, curve) = (ident(&self.names[curve]), &model.curves[curve]);
         let length = Literal::usize_unsuffixed(curve.points.len());
@@ -122,7 +123,7 @@ impl Library {
     }
 }
 
-/// What a curve does beyond its points.
+/// The way a curve is extrapolated beyond its points.
 pub(crate) fn extrapolate(extrapolate: Extrapolate) -> TokenStream {
     match extrapolate {
         Extrapolate::Linear => quote!(Extrapolate::Linear),
@@ -131,7 +132,8 @@ pub(crate) fn extrapolate(extrapolate: Extrapolate) -> TokenStream {
     }
 }
 
-/// Asks clippy not to suggest `PI` for a number that only comes close to it; nothing where none does.
+/// An attribute that keeps clippy from suggesting `PI` for a number that only comes close to it; `None` if no number
+/// does.
 pub(crate) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<TokenStream> {
     use std::f64::consts::*;
     let names = [
@@ -155,13 +157,13 @@ pub(crate) fn allow<'a>(numbers: impl IntoIterator<Item = &'a f64>) -> Option<To
         LOG10_2,
         LOG10_E,
     ];
-    // Clippy compares as many digits as are written.
+    // Clippy compares only the digits that are written.
     let close = |x: f64| names.iter().any(|name| (x.abs() / name - 1.0).abs() < 1e-2);
     let any = numbers.into_iter().any(|&x| close(x));
     any.then(|| quote!(#[allow(clippy::approx_constant)]))
 }
 
-/// The curve that a function evaluates, if it is one of the curve.
+/// The curve that a function evaluates; `None` if the function evaluates no curve.
 pub(crate) fn curve_of(function: Function) -> Option<usize> {
     match function {
         Function::Curve(i)
@@ -184,12 +186,12 @@ pub(crate) fn curve_of(function: Function) -> Option<usize> {
     }
 }
 
-/// What some results call.
+/// The curves and laws that some results call.
 #[derive(Default)]
 pub(crate) struct Calls {
     /// Curves.
     pub curves: BTreeSet<usize>,
-    /// True where a force law is called.
+    /// True if a force law is called.
     pub laws: bool,
 }
 
@@ -209,7 +211,7 @@ impl Calls {
         })
     }
 
-    /// Adds the curves that functions of the user's look up.
+    /// Adds the curves that the user's functions look up.
     pub(crate) fn add_user(&mut self, model: &Model) {
         for force in &model.forces {
             if let ForceKind::User(user) = &force.kind
@@ -225,7 +227,7 @@ impl Calls {
         }
     }
 
-    /// Adds what these roots need.
+    /// Adds the curves and laws on which these roots depend.
     pub(crate) fn add(&mut self, graph: &Graph, roots: &[NodeId]) {
         for &id in Live::new(graph, roots).nodes() {
             if let Node::Call(function, _) = graph.node(id) {

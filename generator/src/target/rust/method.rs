@@ -1,4 +1,4 @@
-//! A method as Rust: as a whole, in calls of the subroutines that its like elements share, or in pieces.
+//! Writes a method as Rust: as a whole, as calls of the subroutines that similar elements share, or in pieces.
 
 use super::expression::ident;
 use super::function::{Writer, with_body};
@@ -21,8 +21,9 @@ use quote::{format_ident, quote};
 use std::collections::BTreeSet;
 use syn::{Block, ImplItemFn, parse_quote};
 
-/// The name of a method in the text. Where the trait `Model` has one of the same name, of the whole state, this one would hide it, so its name
-/// says that it is evaluated at parts of a state: `outputs_at(t, q, v)`.
+/// The name of a method in the generated text. If the trait `Model` has a method of the same name that takes the whole
+/// state, this method would hide it. Its name then ends in `_at`, as it is evaluated at the parts of a state:
+/// `outputs_at(t, q, v)`.
 pub(crate) fn method_name(method: &Specification) -> String {
     match method.of_parts {
         true => format!("{}_at", method.name),
@@ -30,7 +31,7 @@ pub(crate) fn method_name(method: &Specification) -> String {
     }
 }
 
-/// True for the method that has no receiver, but makes one from parameters.
+/// True for the constructor, which has no receiver but makes a mechanism from parameters.
 pub(crate) fn constructs(method: &Specification) -> bool {
     method.results == Results::Mechanism
 }
@@ -40,13 +41,13 @@ pub(crate) struct Function {
     pub name: &'static str,
     /// The pieces of the method, if it has any, and the method.
     pub methods: Vec<ImplItemFn>,
-    /// What the pieces hand on.
+    /// The structs that the pieces return.
     pub structs: Vec<TokenStream>,
-    /// What it costs, by section.
+    /// The number of operations, by section.
     pub operations: Table,
 }
 
-/// Writes a method, in calls or in pieces if it is long.
+/// Writes a method; a long method as calls of subroutines or in pieces.
 pub(crate) fn write(
     procedure: Procedure,
     inputs: &Inputs,
@@ -96,7 +97,8 @@ pub(crate) fn write(
     }
 }
 
-/// A method whose results are those that `of` writes from an index on, which is the constant of this name.
+/// The method `method`, whose results are those that the method `of` writes, from the index on that the constant `from`
+/// holds.
 pub(crate) fn part_of(method: &Specification, of: &str, from: &str) -> Vec<ImplItemFn> {
     let (of, from) = (ident(of), ident(from));
     let given = method.arguments.iter().map(|a| ident(a.name()));
@@ -107,7 +109,8 @@ pub(crate) fn part_of(method: &Specification, of: &str, from: &str) -> Vec<ImplI
     public_method(method, &reads, true, body)
 }
 
-/// The public method around a body that reads these arguments; two where results go to an output writer, if there are any.
+/// The public method with this body, which reads these arguments. If results go to an output writer, there is a second
+/// method around it.
 pub(crate) fn public_method(
     method: &Specification,
     reads: &BTreeSet<Argument>,

@@ -1,19 +1,20 @@
-//! Rust: one file for a model, of items only, so that it can be `include!`d into a module.
+//! Writes Rust: one file for a model, of items only, so that it can be `include!`d into a module.
 //!
-//! What is written is decided by [`program`](crate::program); here it is printed.
+//! [`program`](crate::program) decides what is written; this module prints it.
 //!
 //! | file | what |
 //! |---|---|
-//! | `method`, `argument`, `results` | a method: its head, what it is given, what it returns |
+//! | `method`, `argument`, `results` | a method: its signature, arguments and results |
 //! | `function` | its body, or the bodies of its pieces |
-//! | `subroutines`, `subroutine_names` | its body as calls of what like elements share |
+//! | `subroutines`, `subroutine_names` | its body as calls of subroutines that similar elements share |
 //! | `expression`, `syntax`, `naming` | statements and formulas as syntax trees, with names |
 //! | `implementation` | the trait `Model`, by the methods |
 //! | `items`, `library`, `user` | sizes, parameters, constants; curves and laws; functions of the user's |
-//! | `header`, `operations`, `comment` | what a reader sees first; comments between statements |
+//! | `header`, `operations`, `comment` | the comment at the top of the file; comments between statements |
 //!
-//! What depends on parameters alone is computed once, in `Mechanism::new`; what is known to a method before it runs
-//! stands in its graph as an input. Every method is straight-line code: no branch, no loop, no index that is not a number.
+//! Values that depend on parameters alone are computed once, in `Mechanism::new`. A value that is known before a method
+//! runs is an input of the method's graph. Every method is straight-line code: no branch, no loop, no index that is not
+//! a number.
 
 mod argument;
 mod comment;
@@ -48,7 +49,7 @@ pub use user::{Adapter, Apart, apart, skeleton};
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
 pub const GENERATED_CODE_VERSION: u32 = 16;
 
-/// The text of a model's module. It depends on nothing but the arguments and the version of this crate.
+/// The text of the module of a model. It depends only on the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
     let plan = Plan::new(model, equations, options, None);
     let library = Library::new(model);
@@ -76,7 +77,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     let info = items::info(model, equations);
     let indices = items::indices(model, equations, &inputs);
     let implementation = implementation::implementation(equations, &methods, &library);
-    // Nobody needs every method, and a model's numbers may come close to π without meaning it.
+    // No program uses every method, and numbers of a model may come close to π by chance: hence the attributes.
     let mut file: File = parse_quote! {
         #uses
         #sizes
@@ -111,7 +112,7 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     )
 }
 
-/// The methods. That for v̇ is a part of the one for q̇ and v̇ at once.
+/// Writes the methods. The method for v̇ calls a part of the method for q̇ and v̇.
 fn functions(
     procedures: Vec<Procedure>,
     mut motion: Option<Procedure>,

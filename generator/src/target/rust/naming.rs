@@ -1,4 +1,4 @@
-//! Names of what a method computes and reads.
+//! Names of the values that a method computes and reads.
 
 use crate::expression::{Node, NodeId, Symbol};
 use crate::method::inputs::{Argument, Inputs};
@@ -6,11 +6,12 @@ use crate::names::{Names, snake};
 use crate::program::schedule::{Schedule, index, labels_of, uses};
 use rustc_hash::FxHashMap;
 
-/// The identifier of each bound value and of each input in use, by node.
+/// The identifier of each bound value and of each input in use, by index of the node.
 pub(crate) struct Naming(Vec<Option<String>>);
 
 impl Naming {
-    /// Names what the lines bind, and the inputs. `labels` are the names that the roots get if they have none, in the same order.
+    /// Names the values that the lines bind, and the inputs. `labels` has a name for each root, which is used if the
+    /// root has no name of its own.
     pub(crate) fn new(
         schedule: &Schedule,
         labels: &[String],
@@ -19,7 +20,7 @@ impl Naming {
     ) -> Self {
         let labels = labels_of(&schedule.graph, &schedule.roots, labels);
         let mut reserved = vec!["q", "v", "a", "s", "num", "parameters", "writer"];
-        // only where they are, so that a coordinate z keeps its name elsewhere
+        // reserved only in models that have these arguments, so that a coordinate z keeps its name elsewhere
         for (argument, name) in [(Argument::Auxiliaries, "z"), (Argument::Memory, "m")] {
             if inputs.length(argument) > 0 {
                 reserved.push(name);
@@ -43,24 +44,25 @@ impl Naming {
         naming
     }
 
-    /// The identifier of a bound value or an input; `None` for what is written where it is used.
+    /// The identifier of a bound value or an input; `None` for a value that is written out where it is used.
     pub(crate) fn of(&self, id: NodeId) -> Option<&str> {
         self.0[index(id)].as_deref()
     }
 
-    /// Calls values by other names.
+    /// Gives values other names.
     pub(crate) fn rename(&mut self, names: impl IntoIterator<Item = (NodeId, String)>) {
         for (id, name) in names {
             self.0[index(id)] = Some(name);
         }
     }
 
-    /// All names that are taken.
+    /// All names in use.
     pub(crate) fn all(&self) -> impl Iterator<Item = &str> {
         self.0.iter().flatten().map(String::as_str)
     }
 
-    /// All elements of the arguments claim their names, so that each is called the same in every function.
+    /// Names the inputs. All elements of all arguments take their names, in use or not, so that an element has the same
+    /// name in every function.
     fn name_inputs(
         &mut self,
         schedule: &Schedule,

@@ -1,4 +1,4 @@
-//! What the methods of a module cost, as the tables at its top.
+//! Tables of what the methods of a module cost, for the comment at its top.
 
 use super::header::line;
 use super::method::Function;
@@ -6,7 +6,7 @@ use crate::equations::{Equations, Route};
 use crate::expression::count::Count;
 use crate::names::plain;
 
-/// Adds the operations of each method to the header, by kind and by section.
+/// Adds tables to the header: the operations of each method by kind and by section.
 pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Function]) {
     let route = match equations.route {
         Route::Elimination => "elimination from the leaves to the root",
@@ -75,7 +75,7 @@ pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Func
     );
 }
 
-/// A kind of operation, and how many of it a count holds.
+/// The name of a kind of operation, and the function that reads its number from a count.
 type Kind = (&'static str, fn(&Count) -> usize);
 
 const KINDS: [Kind; 12] = [
@@ -93,7 +93,7 @@ const KINDS: [Kind; 12] = [
     ("calls", Count::called),
 ];
 
-/// Numbers under headings; a zero is left out.
+/// Adds a table of numbers under headings. A zero is left blank.
 fn table<'a>(
     text: &mut String,
     corner: &str,

@@ -1,4 +1,4 @@
-//! How a method returns what it computed, as Rust.
+//! Writes the results of a method as Rust: the return type and the last expression.
 
 use super::expression::{Printer, ident};
 use crate::expression::Node;
@@ -9,7 +9,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::Expr;
 
-/// Rows up to which a matrix is written as a table.
+/// Matrices with at most this many rows are written as a table.
 const READABLE_ROWS: usize = 6;
 
 /// The type that a method returns.
@@ -31,7 +31,7 @@ pub(crate) fn returned(results: Results) -> TokenStream {
     }
 }
 
-/// A length as a constant of the module, or as a number.
+/// A length as a constant of the module, or as a number if there is no such constant.
 pub(crate) fn written_length(length: Length) -> TokenStream {
     let name = match length {
         Length::Coordinates => "COORDINATES",
@@ -52,7 +52,7 @@ pub(crate) fn written_length(length: Length) -> TokenStream {
     quote!(#name)
 }
 
-/// The last expression of a method. In pieces, the last one has the parameters by reference.
+/// The last expression of a method. The last of several pieces has the parameters by reference.
 pub(crate) fn written(
     results: Results,
     schedule: &Schedule,
@@ -89,7 +89,7 @@ pub(crate) fn written(
         Results::Mechanism => {
             let fields = inputs.derived.iter().zip(&values).map(|(field, value)| {
                 let field = ident(field);
-                // A field of its own name is written once.
+                // If the value has the name of the field, the name is written only once.
                 if matches!(value, Expr::Path(path) if path.path.is_ident(&field)) {
                     quote!(#field)
                 } else {
@@ -106,7 +106,7 @@ pub(crate) fn written(
     }
 }
 
-/// A large matrix entry by entry, without its zeros.
+/// A large matrix, entry by entry; entries that are 0 are not written.
 fn sparse_matrix(
     schedule: &Schedule,
     rows: usize,
@@ -137,7 +137,7 @@ fn sparse_matrix(
     }
 }
 
-/// Place of an entry of a symmetric matrix in its upper triangle by rows.
+/// The index of an entry of a symmetric matrix in its upper triangle, stored by rows.
 fn upper_triangle(rows: usize, row: usize, column: usize) -> usize {
     let (row, column) = (row.min(column), row.max(column));
     row * rows - row * (row + 1) / 2 + column

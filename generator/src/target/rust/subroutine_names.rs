@@ -1,4 +1,5 @@
-//! What is called how in a method that is written in calls: the functions, what they deal with, and the places where results stand.
+//! Names in a method that is written as calls of subroutines: the functions, their structs, arguments and values, and
+//! the variables that hold results.
 
 use super::expression::{Printer, Words, scalar};
 use super::function::Writer;
@@ -14,31 +15,33 @@ use std::cell::Cell;
 use std::ops::Range;
 use syn::Expr;
 
-/// A text as a function: what it and what it deals with are called.
+/// The names in the function of one subroutine, which serves several blocks.
 pub(crate) struct Called {
     pub function: Ident,
     pub task: Ident,
     pub returned: Ident,
-    /// By value of a block.
+    /// Name of each value that the function computes, by the number of the value in a block.
     pub values: Vec<String>,
-    /// By port.
+    /// Name of the argument of each port.
     pub ports: Vec<String>,
-    /// By run of places that it puts something at: where that begins.
+    /// Name of the argument for each run of results that a block puts into the writer: the index at which the run
+    /// begins.
     pub puts: Vec<String>,
-    /// The struct of what a call leaves for the next.
+    /// The struct of values that a call leaves for the next call.
     pub live_through: Ident,
 }
 
-/// Where the method that calls finds results.
+/// The variables in which the calling method keeps results of calls.
 pub(crate) struct Places {
-    /// By block: the variable of what its call returned.
+    /// For each block, the variable of the result of its call.
     pub returned: Vec<String>,
-    /// By run: the variable of what a call leaves for the next.
+    /// For each run of calls, the variable of the values that a call leaves for the next one.
     pub live_through: Vec<String>,
 }
 
 impl Writer<'_> {
-    /// Names that do not name the element of the first block, which is one of many.
+    /// The names in a subroutine. They do not mention the element of the first block, because the function serves many
+    /// elements.
     pub(crate) fn called(
         &self,
         i: usize,
@@ -93,7 +96,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Names the places, and calls values that blocks bind by them from here on.
+    /// Names the variables of results. From here on, values that blocks bind are printed as fields of these variables.
     pub(crate) fn name_places(
         &mut self,
         subroutines: &[Subroutine],
@@ -141,14 +144,14 @@ impl Writer<'_> {
         places
     }
 
-    /// The element that a line belongs to.
+    /// The element to which a line belongs.
     pub(crate) fn owner(&self, line: usize) -> String {
         let section = self.schedule.lines[line].section;
         owner(&self.schedule.graph.sections()[section]).to_owned()
     }
 }
 
-/// A name without the words of an element.
+/// A name without the words of the name of an element.
 fn without(name: &str, element: &str) -> String {
     let (words, left_out): (Vec<&str>, Vec<&str>) =
         (name.split('_').collect(), element.split('_').collect());
@@ -163,7 +166,8 @@ fn without(name: &str, element: &str) -> String {
     }
 }
 
-/// What a value is called in a common text.
+/// The way a value is written in the text of a subroutine: by its name, as a field, as an element of an array, or as an
+/// input.
 pub(crate) enum Word<'a> {
     Name(&'a str),
     Field(&'a str, &'a str),
@@ -171,13 +175,15 @@ pub(crate) enum Word<'a> {
     Input,
 }
 
-/// The words of a common text: those of the first block, what it is handed, and numbers in their order.
+/// The words in the text of a subroutine: names of values of the first block, of arguments, and the numbers in the
+/// order of their use.
 pub(crate) struct CommonWords<'a> {
     pub plain: &'a Printer<'a>,
     pub words: FxHashMap<NodeId, Word<'a>>,
     pub numbers: &'a [Number],
     pub next: Cell<usize>,
-    /// The runs of places of the first block, and where they are found to begin.
+    /// The index ranges of the results that the first block puts into the writer, and the arguments that hold the
+    /// beginning of each.
     pub puts: (&'a [Range<usize>], &'a [String]),
 }
 
@@ -187,7 +193,7 @@ impl Words for CommonWords<'_> {
             Some(Word::Name(name)) => syntax::word(name),
             Some(Word::Field(base, name)) => syntax::field(syntax::word(base), name),
             Some(Word::Element(array, index)) => syntax::element(array, *index),
-            // and a block reads nothing but its slots
+            // anything else is an input: a block reads only its slots
             Some(Word::Input) | None => self.plain.value(id),
         }
     }

@@ -1,4 +1,5 @@
-//! A method as calls: the subroutines that like elements share as functions, and the function that calls them.
+//! Writes a method as calls: a function for each subroutine that similar elements share, and the method that calls
+//! these functions.
 
 use super::expression::{Printer, ident, number};
 use super::function::{Writer, WriterOfTask, arrow, with_body};
@@ -20,7 +21,7 @@ struct Parameter {
     name: Ident,
     of: TokenStream,
     passed: Passed,
-    /// By block.
+    /// The value that is passed, for each block.
     values: Vec<TokenStream>,
 }
 
@@ -41,7 +42,7 @@ impl Parameter {
         }
     }
 
-    /// Its type; with the lifetime of the reference, if it is one.
+    /// The type of the argument; for a reference, with this lifetime.
     fn of(&self, lifetime: &TokenStream) -> TokenStream {
         let of = &self.of;
         match self.passed {
@@ -53,7 +54,7 @@ impl Parameter {
 }
 
 impl Writer<'_> {
-    /// What calls return and their tasks; the functions that are called, and the method that calls them.
+    /// The structs of results and tasks; the called functions, followed by the method that calls them.
     pub(crate) fn in_calls(&mut self, sharing: &Sharing) -> (Vec<TokenStream>, Vec<ImplItemFn>) {
         let subroutines = &sharing.subroutines;
         let called: Vec<Called> = subroutines
@@ -82,7 +83,7 @@ impl Writer<'_> {
         (structs, methods)
     }
 
-    /// What the function computes, in the words of the first block.
+    /// The body of a called function, made from the lines of the first block.
     fn common_body(&self, subroutine: &Subroutine, function: &Called, called: &[Called]) -> Block {
         let plain = self.printer();
         let first = subroutine.first();
@@ -153,7 +154,7 @@ impl Writer<'_> {
         body
     }
 
-    /// What the function is given.
+    /// The arguments of a called function.
     // Long: a part for each kind of argument, in the order in which they are passed.
     fn given(
         &self,
@@ -255,7 +256,7 @@ impl Writer<'_> {
         given
     }
 
-    /// `let mut carried = …;`: what the first call of a run finds.
+    /// `let mut carried = …;`: the values that the first call of a run gets in place of those of a previous call.
     fn first_live_through(
         &self,
         subroutine: &Subroutine,
@@ -394,7 +395,7 @@ impl Writer<'_> {
         )
     }
 
-    /// The method, with the lines that no others are like.
+    /// The method that calls the functions. It also has the lines that no subroutine contains.
     // Long: it goes over lines and calls once, and collects what they read on the way.
     fn calling_method(
         &self,
@@ -456,7 +457,7 @@ impl Writer<'_> {
                         T::dispatch_apart(#task { mechanism: self, #(#names: #values,)* #writer })
                     };
                     let name = ident(&places[subroutine].returned[block]);
-                    // the last element of many may compute what nobody asks for
+                    // nothing may read the results of the last element of a series
                     let values = &of.blocks[block].values;
                     let asked_for = of.outputs.iter().any(|&n| read.contains(&values[n]));
                     lines.push(match asked_for {
@@ -491,7 +492,7 @@ impl Writer<'_> {
     }
 }
 
-/// What a call returns.
+/// The return type of a called function.
 fn returned(subroutine: &Subroutine, function: &Called) -> TokenStream {
     let returned = &function.returned;
     match subroutine.outputs.is_empty() {
@@ -500,7 +501,7 @@ fn returned(subroutine: &Subroutine, function: &Called) -> TokenStream {
     }
 }
 
-/// Fields with values that no one call returned.
+/// The fields of a struct of results, filled with values that no single call returned.
 fn gathered_fields(
     gathered: &Option<Gathered>,
     fields: &[usize],
@@ -512,10 +513,10 @@ fn gathered_fields(
         let name = ident(&of.values[*number]);
         let value = match gathered.get(number) {
             Some(&id) => printer.value(id),
-            // never read
+            // this field is never read
             None => printer.number(0.0),
         };
-        // A field of its own name is written once.
+        // If the value has the name of the field, the name is written only once.
         match &value {
             Expr::Path(path) if path.path.is_ident(&name) => quote!(#name),
             _ => quote!(#name: #value),
@@ -524,7 +525,7 @@ fn gathered_fields(
     fields.iter().map(field).collect()
 }
 
-/// The first and the last of many.
+/// The words, separated by commas; of more than four only the first two and the last.
 fn list(words: &[String]) -> String {
     match words {
         [first, second, .., last] if words.len() > 4 => format!("{first}, {second} … {last}"),

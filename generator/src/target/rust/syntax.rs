@@ -1,4 +1,5 @@
-//! Syntax trees of formulas, built directly: parsing thousands of lines of tokens would take longer than all else.
+//! Builds the syntax trees of formulas directly: parsing thousands of lines of tokens would take longer than everything
+//! else.
 
 use super::expression::ident;
 use proc_macro2::{Literal, Span};
@@ -25,7 +26,7 @@ pub(crate) fn word(words: &str) -> Expr {
     })
 }
 
-/// A name, or a field of what is called by the first of two names with a dot between them.
+/// A name, or for two names with a dot between them, the field of the first that has the second as its name.
 pub(crate) fn place(name: &str) -> Expr {
     match name.split_once('.') {
         Some((base, name)) => field(word(base), name),
@@ -33,7 +34,7 @@ pub(crate) fn place(name: &str) -> Expr {
     }
 }
 
-/// A literal that is not negative.
+/// A literal, which must not be negative.
 pub(crate) fn literal(literal: Literal) -> Expr {
     Expr::Lit(syn::ExprLit {
         attrs: Vec::new(),
@@ -121,7 +122,7 @@ pub(crate) fn binary(left: Expr, op: BinOp, right: Expr) -> Expr {
     })
 }
 
-/// `name + distance`, or `name` where that is 0.
+/// `name + distance`; `name` if the distance is 0.
 pub(crate) fn offset(name: &str, distance: usize) -> Expr {
     match distance {
         0 => word(name),
@@ -151,7 +152,7 @@ pub(crate) fn brackets(a: Expr) -> Expr {
     })
 }
 
-/// `name`, or `_`.
+/// The pattern `name`, or `_` without a name.
 pub(crate) fn binding(name: Option<&str>) -> Pat {
     match name {
         Some(name) => Pat::Ident(syn::PatIdent {

@@ -1,8 +1,8 @@
-//! The user's own forces: a module for each function, with what it is given and what it returns as plain structs, and an
-//! adapter from the scalars of the equations.
+//! Writes the user's own forces: a module for each function, with plain structs for its arguments and results, and an
+//! adapter that the equations call with scalars.
 //!
-//! The text of the function stands first in its module, letter for letter, so that the messages of a compiler are about
-//! its lines. Forces that call the same function with the same names share a module.
+//! The text of the user comes first in its module, unchanged, so that the messages of a compiler refer to the user's
+//! lines. Forces that call the same function with the same names share a module.
 
 use super::expression::ident;
 use super::items::INDICES;
@@ -13,28 +13,28 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::{File, Path, parse_quote};
 
-/// Name of the adapter in each module.
+/// Name of the adapter function in each module.
 const ADAPTER: &str = "scalars";
 
-/// What a module of generated code has in the namespace of modules already.
+/// Names of modules that generated code uses already.
 const TAKEN: [&str; 5] = ["bryant_runtime", "core", "curve", "force", "nalgebra"];
 
-/// The modules of a model's user forces.
+/// The modules of the user forces of a model.
 #[derive(Default)]
 pub(crate) struct Users {
     modules: Vec<Module>,
-    /// By force of the model: the path of its adapter; empty for forces of other kinds.
+    /// For each force of the model, the path of its adapter; empty for forces of other kinds.
     paths: Vec<String>,
 }
 
 struct Module {
     name: String,
-    /// The first of the forces that share it.
+    /// The first of the forces that share the module.
     force: usize,
 }
 
 impl Users {
-    /// Names for the modules of a model.
+    /// Names the modules of a model.
     pub(crate) fn new(model: &Model) -> Self {
         let mut users = Users::default();
         let mut names = Names::with(&[&TAKEN[..], &INDICES].concat());
@@ -66,21 +66,21 @@ impl Users {
         users
     }
 
-    /// The path of the adapter of a force.
+    /// The path of the adapter that a force calls.
     pub(crate) fn path(&self, force: u16) -> &str {
         self.paths
             .get(usize::from(force))
             .map_or(ADAPTER, String::as_str)
     }
 
-    /// The first force whose adapter is that of a force.
+    /// The first force that calls the same adapter as this force.
     pub(crate) fn first_alike(&self, force: u16) -> u16 {
         let path = self.path(force);
         let first = self.paths.iter().position(|other| other == path);
         first.map_or(force, |first| first as u16)
     }
 
-    /// The modules as text; `curves` are the constants of the model's curves.
+    /// The text of the modules. `curves` are the names of the constants of the model's curves.
     pub(crate) fn text(&self, model: &Model, curves: &[String]) -> String {
         let mut text = String::new();
         for module in &self.modules {
@@ -94,14 +94,14 @@ impl Users {
     }
 }
 
-/// A file of the user's as it stands in a module, letter for letter.
+/// The user's file as it is pasted into a module, unchanged.
 pub(crate) fn pasted(source: &UserSource) -> String {
     let (file, text) = (plain(&source.name), source.text.trim_end());
     format!("// {file}, as its author wrote it\n\n{text}\n\n// end of {file}\n")
 }
 
-/// A Rust file to begin with for a user force: everything that the function is given, and zero for what it returns.
-/// `None` where there is no such force.
+/// A Rust file for the user to begin with: the function of a user force that uses all its arguments, and returns zeros.
+/// `None` if there is no such force.
 pub fn skeleton(model: &Model, force: &str) -> Option<String> {
     let user = model.forces.iter().find_map(|f| match &f.kind {
         ForceKind::User(user) if f.name == force => Some(&**user),
@@ -111,21 +111,21 @@ pub fn skeleton(model: &Model, force: &str) -> Option<String> {
     Some(interface.skeleton(&model.name, force))
 }
 
-/// The functions of a model's user forces and nothing else, as text to be compiled apart.
+/// The functions of the user forces of a model, as text that is compiled by itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Apart {
-    /// Their modules, with the curves that they look up.
+    /// The modules of the functions, with the curves that they look up.
     pub text: String,
-    /// The functions, one of each module.
+    /// The functions, one for each module.
     pub functions: Vec<Adapter>,
-    /// By force of the model: the index of its function; `None` for forces of other kinds.
+    /// For each force of the model, the index of its function; `None` for forces of other kinds.
     pub forces: Vec<Option<usize>>,
 }
 
-/// A function of the user's with scalars in, scalars out: `fn<T: Real>([T; ARGUMENTS]) -> [T; RESULTS]`.
+/// A function of the user's that takes and returns scalars: `fn<T: Real>([T; ARGUMENTS]) -> [T; RESULTS]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Adapter {
-    /// Where it stands in the text.
+    /// The path of the function in the text.
     pub path: String,
     /// Number of arguments.
     pub arguments: usize,
@@ -133,7 +133,8 @@ pub struct Adapter {
     pub results: usize,
 }
 
-/// The functions of a model's user forces as text to be compiled apart; `None` where it has none.
+/// The functions of the user forces of a model, as text that is compiled by itself; `None` if the model has no user
+/// forces.
 pub fn apart(model: &Model) -> Option<Apart> {
     let library = Library::new(model);
     let users = library.user_modules();
@@ -175,7 +176,7 @@ pub fn apart(model: &Model) -> Option<Apart> {
     })
 }
 
-/// Whether two forces call the same function with the same names.
+/// True if two forces call the same function with the same names of ports.
 fn alike(a: &User, b: &User) -> bool {
     fn names<T>(a: &[Port<T>], b: &[Port<T>]) -> bool {
         a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.name == b.name)
@@ -205,27 +206,27 @@ fn alike(a: &User, b: &User) -> bool {
         && curve(a) == curve(b)
 }
 
-/// What a function is given and returns.
+/// Writes the arguments and results of a user's function.
 struct Interface<'a> {
     user: &'a User,
     curves: &'a [String],
 }
 
-/// One kind of port: `Points` of `Point`s.
+/// One kind of port, such as points: the struct `Points` has a field of type `Point` for each port.
 struct Kind {
-    /// Field of `Input` and `Output`.
+    /// Name of the field of `Input` and `Output`.
     field: &'static str,
     all: &'static str,
     one: &'static str,
-    /// What they are.
+    /// A description of these ports.
     text: &'static str,
     names: Vec<String>,
-    /// Fields of one: name, type, what it is.
+    /// Fields of the struct of one port: name, type, description.
     given: Vec<(&'static str, Shape, String)>,
     returned: (&'static str, Shape, String),
 }
 
-/// Shape of a field.
+/// The type of a field.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Shape {
     Scalar,
@@ -245,7 +246,7 @@ impl Shape {
         }
     }
 
-    /// Number of scalars in it.
+    /// Number of scalars in a field of this shape.
     fn length(self) -> usize {
         match self {
             Shape::Scalar => 1,
@@ -254,7 +255,7 @@ impl Shape {
         }
     }
 
-    /// Made of the next scalars.
+    /// The expression of this shape, filled with the next scalars.
     fn from(self, next: &mut dyn FnMut() -> TokenStream) -> TokenStream {
         let mut some = |count: usize| -> TokenStream {
             let entries: Vec<_> = (0..count).map(|_| next()).collect();
@@ -437,7 +438,7 @@ impl Interface<'_> {
             .collect()
     }
 
-    /// The module.
+    /// The text of the module.
     fn module(&self, name: &str) -> String {
         let mut text = String::new();
         let function = plain(&self.user.function.name);
@@ -447,7 +448,7 @@ impl Interface<'_> {
             vectors.trim_end_matches(']')
         );
         if self.user.function.source.is_some() {
-            // their own documentation follows
+            // documentation in the user's text follows
             text += "#[allow(clippy::mixed_attributes_style)]\n";
         }
         text += &format!("pub mod {name} {{\n");
@@ -489,7 +490,7 @@ impl Interface<'_> {
         }
     }
 
-    /// A file to begin with.
+    /// The text of a file for the user to begin with.
     fn skeleton(&self, model: &str, force: &str) -> String {
         let function = self
             .user
@@ -555,7 +556,7 @@ impl Interface<'_> {
         text + &acts + "    output\n}\n"
     }
 
-    /// `Input`.
+    /// The struct `Input`.
     fn input(&self) -> TokenStream {
         let mut fields = vec![field("time", quote!(T), "Time [s].")];
         for kind in self.kinds() {
@@ -590,7 +591,7 @@ impl Interface<'_> {
         structure("Input", "What the function is given.", &fields)
     }
 
-    /// `Output`, with `zero`.
+    /// The struct `Output`, with its function `zero`.
     fn output(&self) -> TokenStream {
         let (mut fields, mut zeros) = (Vec::new(), Vec::new());
         for kind in self.kinds() {
@@ -623,7 +624,7 @@ impl Interface<'_> {
         }
     }
 
-    /// The module `input`.
+    /// The module `input`, with the structs of the ports.
     fn given(&self) -> TokenStream {
         let mut items = TokenStream::new();
         for kind in self.kinds() {
@@ -672,7 +673,7 @@ impl Interface<'_> {
         }
     }
 
-    /// The struct of the curves: its fields are their factors.
+    /// The struct of the curves. Each field is the factor of a curve.
     fn curves(&self) -> TokenStream {
         let (mut fields, mut methods) = (Vec::new(), Vec::new());
         for port in &self.user.function.curves {
@@ -720,7 +721,7 @@ impl Interface<'_> {
         }
     }
 
-    /// The module `output`.
+    /// The module `output`, with the structs of the ports.
     fn returned(&self) -> TokenStream {
         let mut items = TokenStream::new();
         for kind in self.kinds() {
@@ -749,7 +750,7 @@ impl Interface<'_> {
         }
     }
 
-    /// Number of arguments and of results of the adapter.
+    /// Number of arguments of the adapter, and number of its results.
     fn lengths(&self) -> (usize, usize) {
         let function = &self.user.function;
         let states = self.user.states.len();
@@ -763,7 +764,7 @@ impl Interface<'_> {
         (arguments, results)
     }
 
-    /// Scalars in, scalars out.
+    /// The adapter: it makes `Input` from scalars, calls the user's function, and returns the scalars of `Output`.
     // Long: a part for each kind of argument and of result, in one order.
     fn adapter(&self) -> TokenStream {
         let mut count = 0;
@@ -865,7 +866,7 @@ impl Interface<'_> {
 }
 
 impl Kind {
-    /// The struct of all ports of a kind.
+    /// The struct with a field for each port of this kind.
     fn all_of(&self) -> TokenStream {
         let one = ident(self.one);
         let fields = self.names.iter().map(|name| {
@@ -885,7 +886,7 @@ fn field(name: &str, of: TokenStream, text: &str) -> TokenStream {
     quote!(#[doc = #text] pub #name: #of)
 }
 
-/// Square brackets are no links.
+/// A documentation text with its square brackets escaped, so that they are no links.
 fn documented(text: &str) -> String {
     format!(" {}", text.replace('[', "\\[").replace(']', "\\]"))
 }

@@ -1,4 +1,4 @@
-//! The calling convention: functions and those that they call are `extern "sysv64"`.
+//! The calling convention: the emitted functions, and the functions that they call, are `extern "sysv64"`.
 //!
 //! The pointers that a function needs are kept in general registers. If there are more pointers than registers, the others are read from the struct
 //! of pointers at each use.
@@ -6,7 +6,8 @@
 use super::encode::{Encoder, General, Memory};
 use crate::target::machine::Base;
 
-/// Registers that a function may change, except the scratch register and the one with the pointers.
+/// Registers that a function may change without restoring them, except the scratch register and the one with the
+/// pointers.
 const FREE: [General; 7] = [
     General::Rsi,
     General::Rdx,
@@ -16,7 +17,8 @@ const FREE: [General; 7] = [
     General::R10,
     General::R11,
 ];
-/// Registers that a function must restore, except the one with the pointers. Those with shorter encodings come first.
+/// Registers that a function must restore, except the one with the pointers. Registers with shorter encodings come
+/// first.
 const KEPT: [General; 5] = [
     General::Rbp,
     General::R14,
@@ -24,22 +26,22 @@ const KEPT: [General; 5] = [
     General::R13,
     General::R12,
 ];
-/// Holds an address for one instruction.
+/// Holds an address for the next instruction.
 const SCRATCH: General = General::Rax;
 
-/// Where the pointers are while the function runs.
+/// The registers that hold the pointers to regions of memory while the function runs.
 pub(super) struct Bases {
-    /// The register with the address of the struct.
+    /// The register with the address of the struct of pointers.
     pointers: General,
     registers: [Option<General>; Base::ALL.len()],
-    /// Registers that must be restored.
+    /// Registers that the function saves and restores.
     saved: Vec<General>,
-    /// Whether the stack must be moved so that calls find it at a multiple of 16.
+    /// True if the stack pointer must be moved by 8 bytes, so that it is a multiple of 16 in calls.
     align: bool,
 }
 
 impl Bases {
-    /// Gives registers to the bases that are used most, given the number of uses of each.
+    /// Gives registers to the regions that are used most, given the number of uses of each.
     pub fn new(uses: [u32; Base::ALL.len()], calls: bool) -> Self {
         let mut order = Base::ALL;
         order.sort_by_key(|base| std::cmp::Reverse(uses[*base as usize]));
@@ -97,7 +99,8 @@ impl Bases {
         encoder.ret();
     }
 
-    /// A place in a region, valid for the next instruction only, because its address may need the scratch register.
+    /// The memory operand of a place in a region. It is valid for the next instruction only, because its address may be
+    /// in the scratch register.
     pub fn memory(&self, encoder: &mut Encoder, base: Base, offset: i32) -> Memory {
         let register = self.registers[base as usize].unwrap_or_else(|| {
             encoder.load_general(SCRATCH, self.pointer(base));
@@ -106,12 +109,12 @@ impl Bases {
         Memory::At(register, offset)
     }
 
-    /// Where the pointer to a region is stored.
+    /// The memory that holds the pointer to a region.
     fn pointer(&self, base: Base) -> Memory {
         Memory::At(self.pointers, 8 * i32::from(base as u8))
     }
 
-    /// Writes a call of a function of the table.
+    /// Writes a call of the function with this index in the table.
     pub fn call(
         &self,
         encoder: &mut Encoder,

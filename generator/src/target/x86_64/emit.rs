@@ -1,6 +1,7 @@
 //! The instructions of each step.
 //!
-//! The instruction that needs an operand outside of a register reads it from memory; if the operand is needed again soon, it is loaded instead.
+//! An operand that is in no register is read from memory by the instruction that needs it, or is loaded into a register
+//! if it is needed again soon.
 
 use super::Target;
 use super::abi::Bases;
@@ -11,19 +12,19 @@ use crate::target::machine::registers::{NEVER, Set};
 use crate::target::machine::shape::{Length, Shape};
 use crate::target::machine::steps::{Kind, Step};
 
-/// A value that is used again within this many steps is loaded.
+/// A value in memory is loaded into a register if it is used again within this many steps.
 const SOON: u32 = 12;
 
 /// A processor of x86-64.
 pub(super) struct X86 {
     encoder: Encoder,
     bases: Bases,
-    /// Whether comparisons write to mask registers.
+    /// True if comparisons write to mask registers.
     masks: bool,
 }
 
 impl X86 {
-    /// One with the beginning of a function.
+    /// A processor that has already written the beginning of a function.
     pub fn new(target: &Target, needs: &Needs) -> Self {
         let mut encoder = Encoder::with_capacity(needs.steps * 10 + 64);
         let bases = Bases::new(needs.uses, needs.calls);
@@ -35,7 +36,7 @@ impl X86 {
         }
     }
 
-    /// A place in a region, valid for the next instruction.
+    /// The memory operand of a place in a region, valid for the next instruction only.
     fn memory(&mut self, (base, offset): At) -> Memory {
         self.bases
             .memory(&mut self.encoder, base, offset.cast_signed())
@@ -56,7 +57,8 @@ impl X86 {
 }
 
 impl Length {
-    /// Whether it has more than 16 bytes, which code without AVX does not know.
+    /// True if a value has more than 16 bytes. Then the upper halves of registers must be cleared before code that uses
+    /// no AVX.
     fn is_wide(self) -> bool {
         matches!(self, Length::ThirtyTwo | Length::SixtyFour)
     }
@@ -127,7 +129,8 @@ impl Processor for X86 {
 
     fn call_from_part(&mut self, shape: Shape, index: u32, arguments: At, results: At) {
         self.zero_upper(shape);
-        // the called function must find the stack at a multiple of 16
+        // the return address of this part takes 8 bytes, and the called function must find the stack at a multiple of
+        // 16
         self.encoder.lower_stack(8);
         self.call_entry(index, arguments, results);
         self.encoder.lower_stack(-8);
@@ -163,7 +166,7 @@ impl Processor for X86 {
     }
 
     fn finish(self, mut constants: Vec<u8>) -> Vec<u8> {
-        // a bitwise operation reads 16 bytes
+        // a bitwise operation reads 16 bytes from memory, also at the last constant
         constants.extend([0; 12]);
         self.encoder.finish(&constants)
     }
@@ -199,7 +202,7 @@ impl Emitter<'_, X86> {
         let keep = keep.map_or(Set::default(), |register| Set::default().with(register));
         let source = self.loaded(first, keep);
         let keep = keep.with(source);
-        // a scalar in memory has less than the 16 bytes that are read, except for constants
+        // the instruction reads 16 bytes, but a scalar in memory has fewer, except among the constants
         let whole =
             self.shape.length != Length::Scalar || matches!(self.home(second), Home::Constant(_));
         let mask = match whole {
@@ -214,16 +217,16 @@ impl Emitter<'_, X86> {
         self.define(defines, result);
     }
 
-    /// Emits ±(a · b) ± c. The instruction overwrites one operand.
+    /// Emits ±(a · b) ± c. The instruction overwrites one of its operands.
     fn fused(&mut self, signs: Signs, operands: [u32; 3], defines: u32) {
         let keep = self.at_most_one_in_memory(operands);
         let registers = operands.map(|value| self.registers.of(value));
         let dies = |i: usize| registers[i].is_some() && self.after(i) == NEVER;
-        // the addend first, because the factors may be exchanged
+        // an operand that may be overwritten; the addend first, because the factors may be exchanged
         let dying = [2, 0, 1].into_iter().find(|i| dies(*i));
         let overwritten = match dying {
             Some(index) => index,
-            // copies an operand that is in memory, or otherwise the addend
+            // otherwise overwrites a copy of an operand that is in memory, or of the addend
             None => (0..3).find(|i| registers[*i].is_none()).unwrap_or(2),
         };
         let others = match overwritten {
@@ -255,7 +258,7 @@ impl Emitter<'_, X86> {
         self.define(defines, result);
     }
 
-    /// Emits `then` where a < b, `otherwise` elsewhere: a comparison and a selection.
+    /// Emits a comparison and a selection: `then` where a < b, `otherwise` elsewhere.
     fn select(&mut self, operands: [u32; 4], defines: u32) {
         let mut keep = Set::default();
         for register in operands
@@ -268,7 +271,7 @@ impl Emitter<'_, X86> {
         keep = keep.with(first);
         let otherwise = self.loaded(operands[3], keep);
         keep = keep.with(otherwise);
-        // for scalars, the selection reads whole registers, but memory has only one number
+        // for scalars, the selection reads a whole register, but memory has only one number
         let scalar = self.shape.length == Length::Scalar;
         if scalar || !self.processor.masks {
             keep = keep.with(self.loaded(operands[2], keep));
@@ -302,7 +305,8 @@ impl Emitter<'_, X86> {
         }
     }
 
-    /// Loads operands until at most one of them, and no value twice, is only in memory. Returns the registers of the others.
+    /// Loads operands until at most one of the values is in memory only, and that one is used only once. Returns the
+    /// registers of the others.
     fn at_most_one_in_memory(&mut self, operands: [u32; 3]) -> Set {
         let mut keep = Set::default();
         for register in operands
@@ -322,7 +326,7 @@ impl Emitter<'_, X86> {
         }
     }
 
-    /// A register with a copy of a value, which may be overwritten.
+    /// A register with a copy of a value. The copy may be overwritten.
     fn copied(&mut self, value: u32, keep: Set) -> Vector {
         match self.registers.of(value) {
             Some(source) => {
@@ -357,7 +361,8 @@ impl Emitter<'_, X86> {
         self.define(defines, result);
     }
 
-    /// A value as the last operand of an instruction; it may be in memory.
+    /// A value as the last operand of an instruction, which may be in memory. `index` is its index among the operands
+    /// of the step.
     fn operand(&mut self, value: u32, keep: Set, index: usize) -> Operand {
         if let Some(register) = self.registers.of(value) {
             return Operand::Register(register);

@@ -48,9 +48,9 @@ pub enum General {
 /// A place in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
-    /// The address in a register plus this many bytes.
+    /// The address in a register, plus an offset in bytes.
     At(General, i32),
-    /// The beginning of the constants, which follow the code, plus this many bytes.
+    /// An offset in bytes from the beginning of the constants, which follow the code.
     Constant(u32),
 }
 
@@ -59,13 +59,13 @@ pub enum Memory {
 pub enum Operand {
     /// A register.
     Register(Vector),
-    /// Memory: as many bytes as the instruction works on.
+    /// Memory: as many bytes as the instruction processes.
     Memory(Memory),
-    /// One number in memory, used in every lane.
+    /// One number in memory, which is used in every lane.
     Broadcast(Memory),
 }
 
-/// The condition of a comparison. With a NaN it is false or true as stated, and raises no exception.
+/// The condition of a comparison. With a NaN it is false or true as stated; no exception is raised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
     /// first < second; false with a NaN
@@ -97,25 +97,25 @@ pub enum Form {
 /// Everything that identifies an instruction on vector registers, except its operands.
 #[derive(Clone, Copy)]
 struct Opcode {
-    /// 1: 0F, 2: 0F 38, 3: 0F 3A.
+    /// The opcode map: 1 for 0F, 2 for 0F 38, 3 for 0F 3A.
     map: u8,
-    /// 0: none, 1: 66, 2: F3, 3: F2.
+    /// The mandatory prefix: 0 for none, 1 for 66, 2 for F3, 3 for F2.
     prefix: u8,
-    /// The bit W with a VEX and with an EVEX prefix.
+    /// The bit W of a VEX prefix, and that of an EVEX prefix.
     wide: [bool; 2],
     code: u8,
     length: Length,
-    /// The unit of an EVEX displacement, if memory is not broadcast.
+    /// The unit of an EVEX displacement in bytes, if memory is not broadcast.
     unit: u32,
-    /// The unit of an EVEX displacement, if memory is broadcast.
+    /// The unit of an EVEX displacement in bytes, if memory is broadcast.
     element: u32,
 }
 
 /// A displacement to the constants that must still be filled in.
 struct Fixup {
-    /// Position of the displacement in the code.
+    /// Position of the displacement in the code, in bytes.
     at: usize,
-    /// Offset of the constant.
+    /// Offset of the constant from the beginning of the constants, in bytes.
     constant: u32,
     /// Number of bytes of the instruction after the displacement.
     behind: usize,
@@ -129,7 +129,7 @@ pub struct Encoder {
 }
 
 impl Encoder {
-    /// An encoder without code, with room for so many bytes.
+    /// An encoder without code, with room for this many bytes.
     pub fn with_capacity(bytes: usize) -> Self {
         Encoder {
             bytes: Vec::with_capacity(bytes),
@@ -137,7 +137,7 @@ impl Encoder {
         }
     }
 
-    /// The code, followed by the constants from the next multiple of 64 on.
+    /// The code, followed by the constants from the next multiple of 64 bytes on.
     pub fn finish(mut self, constants: &[u8]) -> Vec<u8> {
         let start = self.bytes.len().next_multiple_of(64);
         for Fixup {
@@ -175,8 +175,8 @@ impl Encoder {
         self.vector(arithmetic(shape, code), destination, first, second);
     }
 
-    /// destination = √operand. For scalars, the lanes beyond the first come from `first`. If `first` is not the operand, the root has to wait
-    /// for it.
+    /// destination = √operand. For scalars, the lanes beyond the first come from `first`; unless `first` is the operand
+    /// itself, the instruction has to wait for it as well.
     pub fn sqrt(&mut self, shape: Shape, [destination, first]: [Vector; 2], operand: Operand) {
         let first = match shape.length {
             Length::Scalar => first,
@@ -185,7 +185,8 @@ impl Encoder {
         self.vector(arithmetic(shape, 0x51), destination, first, operand);
     }
 
-    /// destination = first ∘ second, bit by bit. It reads a whole register or a broadcast from memory; for scalars 16 bytes.
+    /// destination = first ∘ second, bit by bit. From memory, the instruction reads a whole register or a broadcast
+    /// number; for scalars 16 bytes.
     pub fn bits(
         &mut self,
         shape: Shape,
@@ -200,20 +201,21 @@ impl Encoder {
         self.vector(arithmetic(shape.whole(), code), destination, first, second);
     }
 
-    /// destination = the bits of each double, shifted left. For scalars the whole register is shifted.
+    /// destination = the bits of each double, shifted left. For scalars, the whole register is shifted.
     pub fn shift_left(&mut self, shape: Shape, destination: Vector, source: Vector, places: u8) {
         let opcode = Opcode {
             prefix: 1,
             wide: [false, true],
             ..arithmetic(shape.whole(), 0x73)
         };
-        // a part of the operation code stands where the destination stands elsewhere
+        // the field of the destination holds a part of the operation code; the destination is in the field of the
+        // second operand
         let shift = Vector(6);
         self.vector(opcode, shift, destination, Operand::Register(source));
         self.immediate(places);
     }
 
-    /// The sum of a product of two operands and the third operand, with these signs, rounded once.
+    /// The product of two operands plus the third, with these signs, rounded once.
     pub fn fused(
         &mut self,
         shape: Shape,
@@ -243,7 +245,8 @@ impl Encoder {
         self.vector(opcode, destination, second, third);
     }
 
-    /// destination = all bits set in each number where the comparison holds, no bits elsewhere. Not for registers 16 to 31, nor 64 bytes.
+    /// destination = all bits set in each number for which the comparison holds, no bits elsewhere. Not for registers
+    /// 16 to 31, nor for 64 bytes.
     pub fn compare(
         &mut self,
         shape: Shape,
@@ -255,8 +258,8 @@ impl Encoder {
         self.immediate(comparison.predicate());
     }
 
-    /// destination = for each number, `then` where the first bit of the same number in `mask` is set, otherwise `otherwise`. For scalars the
-    /// whole register is used. Not for registers 16 to 31, nor 64 bytes.
+    /// destination = for each number, `then` if the first bit of the same number in `mask` is set, otherwise
+    /// `otherwise`. For scalars, the whole register is written. Not for registers 16 to 31, nor for 64 bytes.
     pub fn blend(
         &mut self,
         shape: Shape,
@@ -280,7 +283,7 @@ impl Encoder {
         self.immediate(mask.0 << 4);
     }
 
-    /// Mask register 1 = the lanes where the comparison holds. It has an EVEX prefix.
+    /// Mask register 1 = the lanes in which the comparison holds. The instruction has an EVEX prefix.
     pub fn compare_to_mask(
         &mut self,
         shape: Shape,
@@ -293,15 +296,16 @@ impl Encoder {
         self.immediate(comparison.predicate());
     }
 
-    /// Jumps if mask register 1, of at most sixteen bits, has a bit set; [`land`](Self::land) sets the target.
+    /// Jumps if a bit of mask register 1 is set; the mask has at most 16 bits. [`land`](Self::land) sets the target.
     pub fn jump_if_masked(&mut self) -> Jump {
         // kortestw k1, k1
         self.bytes.extend([0xc5, 0xf8, 0x98, 0xc9]);
         self.jump_if_not_zero()
     }
 
-    /// Jumps if the sign of any number in a register is set, for scalars that of the first number; [`land`](Self::land) sets the target. The
-    /// scratch register is changed. Not for registers 16 to 31, nor 64 bytes.
+    /// Jumps if any number in a register has its sign bit set; for scalars, only the first number counts.
+    /// [`land`](Self::land) sets the target. The scratch register is changed. Not for registers 16 to 31, nor for 64
+    /// bytes.
     pub fn jump_if_signed(&mut self, shape: Shape, source: Vector) -> Jump {
         let opcode = Opcode {
             wide: [false; 2],
@@ -357,7 +361,8 @@ impl Encoder {
         self.bytes[at..end].copy_from_slice(&distance.to_le_bytes());
     }
 
-    /// destination = `then` where mask register 1 is set, `otherwise` elsewhere. For scalars the whole register is used. It has an EVEX prefix.
+    /// destination = `then` where mask register 1 is set, `otherwise` elsewhere. For scalars, the whole register is
+    /// written. The instruction has an EVEX prefix.
     pub fn blend_by_mask(
         &mut self,
         shape: Shape,
@@ -372,13 +377,13 @@ impl Encoder {
         self.with_evex(opcode, destination, otherwise, then, 1);
     }
 
-    /// destination = source, the whole register.
+    /// destination = source, for the whole register.
     pub fn copy(&mut self, shape: Shape, destination: Vector, source: Vector) {
         let opcode = arithmetic(shape.whole(), 0x28);
         self.vector(opcode, destination, Vector(0), Operand::Register(source));
     }
 
-    /// destination = memory, at any alignment. A scalar sets the rest of the register to zero.
+    /// destination = memory, at any alignment. A load of a scalar sets the rest of the register to zero.
     pub fn load(&mut self, shape: Shape, destination: Vector, source: Memory) {
         let opcode = arithmetic(shape, 0x10);
         self.vector(opcode, destination, Vector(0), Operand::Memory(source));
@@ -406,7 +411,7 @@ impl Encoder {
         self.vector(opcode, destination, Vector(0), Operand::Memory(source));
     }
 
-    /// Sets the upper halves of all registers to zero, for code that does not know them.
+    /// Sets the upper halves of all vector registers to zero, before code that uses only the lower halves.
     pub fn zero_upper(&mut self) {
         self.bytes.extend([0xc5, 0xf8, 0x77]);
     }
@@ -443,7 +448,7 @@ impl Encoder {
         self.general(false, 0xff, 2, address);
     }
 
-    /// Moves the stack down by so many bytes; up if negative.
+    /// Moves the stack pointer down by this many bytes; up if negative.
     pub fn lower_stack(&mut self, bytes: i8) {
         self.bytes.extend([0x48, 0x83, 0xec, bytes.cast_unsigned()]);
     }
@@ -453,7 +458,7 @@ impl Encoder {
         self.bytes.push(0xc3);
     }
 
-    /// An instruction whose only byte contains its register.
+    /// Writes an instruction of one byte that contains its register, after a prefix for registers 8 to 15.
     fn short(&mut self, code: u8, register: General) {
         let register = register as u8;
         if register > 7 {
@@ -462,7 +467,7 @@ impl Encoder {
         self.bytes.push(code | register & 7);
     }
 
-    /// An instruction with a general register and memory.
+    /// Writes an instruction with a general register and a memory operand.
     fn general(&mut self, wide: bool, code: u8, reg: u8, memory: Memory) {
         let base = base_bit(memory);
         let rex = 0x40 | u8::from(wide) << 3 | reg >> 3 << 2 | base;
@@ -473,7 +478,8 @@ impl Encoder {
         self.memory(reg, memory, 1);
     }
 
-    /// An instruction on vector registers. `reg` is the destination, or the register to store; `second` is 0 if there is none.
+    /// Writes an instruction on vector registers. `reg` is the destination, or the register to store; `second` is 0 if
+    /// there is none.
     fn vector(&mut self, opcode: Opcode, reg: Vector, second: Vector, last: Operand) {
         let high = |register: Vector| register.0 > 15;
         let evex = opcode.length == Length::SixtyFour
@@ -494,7 +500,8 @@ impl Encoder {
         }
     }
 
-    /// The same, always with an EVEX prefix, for the numbers that a mask register selects; for all of them if `mask` is 0.
+    /// Writes an instruction on vector registers with an EVEX prefix. It works on the numbers that mask register `mask`
+    /// selects; on all numbers if `mask` is 0.
     fn with_evex(&mut self, opcode: Opcode, reg: Vector, second: Vector, last: Operand, mask: u8) {
         self.evex(&opcode, reg.0, second.0, last, mask);
         self.bytes.push(opcode.code);
@@ -505,7 +512,7 @@ impl Encoder {
         self.last_operand(reg, last, unit);
     }
 
-    /// The bytes for the operands that are not in the prefix.
+    /// Writes the bytes for the operands that are not in the prefix.
     fn last_operand(&mut self, reg: Vector, last: Operand, unit: u32) {
         match last {
             Operand::Register(register) => {
@@ -517,7 +524,7 @@ impl Encoder {
         }
     }
 
-    /// The prefix of two or three bytes. Register bits are inverted in it.
+    /// Writes a VEX prefix of two or three bytes. Register bits are inverted in it.
     fn vex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand) {
         let b = match last {
             Operand::Register(register) => register.0 >> 3 & 1,
@@ -535,7 +542,7 @@ impl Encoder {
         }
     }
 
-    /// An immediate operand at the end of an instruction.
+    /// Writes an immediate operand at the end of an instruction.
     fn immediate(&mut self, value: u8) {
         if let Some(fixup) = self.fixups.last_mut()
             && fixup.at + 4 == self.bytes.len()
@@ -545,7 +552,7 @@ impl Encoder {
         self.bytes.push(value);
     }
 
-    /// The prefix of four bytes. Register bits are inverted in it.
+    /// Writes an EVEX prefix of four bytes. Register bits are inverted in it.
     fn evex(&mut self, opcode: &Opcode, reg: u8, second: u8, last: Operand, mask: u8) {
         let (x, b, broadcast) = match last {
             Operand::Register(Vector(register)) => (register >> 4 & 1, register >> 3 & 1, 0),
@@ -567,7 +574,8 @@ impl Encoder {
         ]);
     }
 
-    /// The bytes that encode a register and a memory operand. A displacement of one byte counts in units.
+    /// Writes the bytes that encode a register and a memory operand. A displacement of one byte counts in units of
+    /// `unit` bytes.
     fn memory(&mut self, reg: u8, memory: Memory, unit: u32) {
         let reg = (reg & 7) << 3;
         match memory {
@@ -586,7 +594,7 @@ impl Encoder {
                 let short = (displacement % unit == 0)
                     .then_some(displacement / unit)
                     .and_then(|units| i8::try_from(units).ok());
-                // without a displacement, rbp and r13 mean something else
+                // the encoding without a displacement means something else for rbp and r13
                 let mode = match short {
                     Some(0) if base != 5 => 0x00,
                     Some(_) => 0x40,
@@ -607,7 +615,7 @@ impl Encoder {
     }
 }
 
-/// The fourth bit of the number of the base register.
+/// The highest bit of the four-bit number of the base register.
 fn base_bit(memory: Memory) -> u8 {
     match memory {
         Memory::At(base, _) => base as u8 >> 3,
@@ -615,7 +623,7 @@ fn base_bit(memory: Memory) -> u8 {
     }
 }
 
-/// The operation code of an instruction that has a prefix for each shape, as most have.
+/// The opcode of an instruction whose prefix depends on its shape, as for most arithmetic.
 fn arithmetic(shape: Shape, code: u8) -> Opcode {
     let prefix = match (shape.length, shape.precision) {
         (Length::Scalar, Precision::Double) => 3,

@@ -22,15 +22,16 @@ use emit::X86;
 /// The processor features and the scalar that code is made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Target {
-    /// The part of a register that a value takes. One number needs AVX, 32 bytes need AVX2, 64 bytes need AVX-512 F and DQ.
+    /// The part of a register that a value takes up. One number needs AVX, 32 bytes need AVX2, 64 bytes need AVX-512 F
+    /// and DQ.
     pub length: Length,
     /// Doubles or singles.
     pub precision: Precision,
-    /// Whether a · b + c is rounded once, which needs FMA; otherwise it is rounded twice.
+    /// True if a · b + c is rounded once, which needs FMA; false if it is rounded twice.
     pub fused: bool,
-    /// Whether registers 16 to 31 exist: AVX-512 F, DQ and VL.
+    /// True if registers 16 to 31 exist: AVX-512 F, DQ and VL.
     pub many_registers: bool,
-    /// Whether every scalar is a dual number: a value and, in the next slot, its slope.
+    /// True if every scalar is a dual number: a value and, in the next slot, its slope.
     pub slopes: bool,
 }
 
@@ -46,15 +47,16 @@ impl Target {
         }
     }
 
-    /// Whether comparisons write to mask registers; there are then 32 registers of vectors.
+    /// True if comparisons write to mask registers. There are then 32 vector registers.
     fn masks(&self) -> bool {
         self.many_registers || self.length == Length::SixtyFour
     }
 }
 
-/// The function that evaluates a list. `curves` are those of the model. Functions that this target has no steps for are called.
+/// Makes the function that evaluates a list. `curves` are the curves of the model. The emitted code calls the functions
+/// for which this target has no steps.
 ///
-/// The function is `extern "sysv64"`, and so are the functions that it calls.
+/// The emitted function is `extern "sysv64"`, and so are the functions that it calls.
 pub fn assemble(list: &List, curves: &[Curve], target: &Target) -> Code {
     let values = target.values();
     let steps = steps(list, curves, &values);

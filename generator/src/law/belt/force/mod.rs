@@ -1,24 +1,26 @@
-//! Belt: a tension along the line between two attachments, or along the lines from one to the next of the rings between them.
-//! \[MADYMO 1980, force model 4\]
+//! Belt: a tension along the line between two attachments, or along the lines between successive rings. \[MADYMO 1980,
+//! force model 4\]
 //!
 //! d = p_to − p_from,   L = |d|,   n = d/L,   L̇ = n · ḋ,   ε = (L − ℓ)/ℓ
 //!
 //! T = tension(ε, curve(ε), damping · min((L − ℓ)/stretch, 1) · (L̇ + ṙ))
 //!
-//! +T n acts on `from`, −T n on `to`. The untensioned length ℓ is L₀, given, or the initial distance plus slack, or such that the
-//! belt pulls with its pretension at the initial distance: L₀ = L_start/(1 + ε_p) with curve(ε_p) = pretension; a
-//! retractor, pretensioner or limiter (`webbing`) changes it, taking in webbing at the rate ṙ. Until the retractor
-//! locks T is its spool, and T is never larger than the force of the limiter.
+//! +T n acts on `from`, −T n on `to`. The untensioned length ℓ is L₀, which is given, or is the initial distance plus
+//! slack, or is such that the belt pulls with its pretension at the initial distance: L₀ = L_start/(1 + ε_p) with
+//! curve(ε_p) = pretension. A retractor, pretensioner or limiter (`webbing`) changes ℓ, taking in webbing at the rate
+//! ṙ. Until the retractor locks, T is the tension of its spool; T is never larger than the force of the limiter.
 //!
-//! With rings each line between two of them is a segment with a tension of its own; webbing slips from one to the next (`ring.rs`),
-//! s from the segment on the side of `from`. Of segment i
+//! In a belt with rings, each line between two successive points is a segment with a tension of its own. Webbing slips
+//! from one segment to the next (`ring.rs`); sᵢ is the length that has slipped out of segment i through the ring at its
+//! end. For segment i
 //!
 //! ℓᵢ = L₀ᵢ + sᵢ₋₁ − sᵢ,   ε̇ᵢ = (L̇ᵢ − (Lᵢ/ℓᵢ) ℓ̇ᵢ)/ℓᵢ,   Tᵢ = tension(εᵢ, curve(εᵢ), damping · min(…, 1) · L₀ ε̇ᵢ)
 //!
-//! where L₀ = Σ L₀ᵢ: segments of equal strain rate are damped alike, however long they are. The devices change ℓ₁.
+//! where L₀ = Σ L₀ᵢ: segments with equal strain rates are damped alike, whatever their lengths. The devices change ℓ₁.
 //!
-//! The power −T L̇ on the bodies is told apart: what stretches the webbing, −T (L̇ − ℓ̇), to `elastic`, `damping` and
-//! `limiter`, T ṙ to the `pretensioner`, and all of it to the `retractor` until that locks; what slips, ṡ (T_before − T_behind), to the ring.
+//! The power −T L̇ on the bodies is split up: the part that stretches the webbing, −T (L̇ − ℓ̇), goes to `elastic`,
+//! `damping` and `limiter`, T ṙ to the `pretensioner`, and all of it to the `retractor` until the retractor locks; the
+//! power lost in slip, ṡ (T_before − T_behind), goes to the ring.
 
 mod ring;
 mod webbing;
@@ -40,55 +42,57 @@ use crate::model::{Attachment, Belt, BeltLength, Model};
 use ring::Ring;
 use webbing::{Limiter, NOISE, Webbing, webbing};
 
-/// Smallest squared length that a division by the length sees \[m²\]: ends that are closer than 1e-10 m give a direction of (nearly) 0 and so no force,
-/// instead of NaN.
+/// Lower bound of the squared length in divisions \[m²\]: ends that are closer than 1e-10 m give a direction of
+/// (nearly) 0 and so no force, instead of NaN.
 ///
-/// Generated text has no branches, so both sides of "slack or taut" are computed and every divisor must be safe in every state. The untensioned
-/// length is positive by the rules for its numbers (`terms.rs` of this law, `dynamics/conditions.rs`), and at least [`SHORTEST`] where a pretensioner or slip
-/// through a ring takes webbing in. 1 + ε and the resistance of a ring (`webbing.rs`, `ring.rs`), the slope of unloading and the stretch of damping are positive by
-/// their rules.
+/// Generated text has no branches, so both the slack and the taut case are computed, and every divisor must be nonzero
+/// in every state. The untensioned length is positive by the rules for its numbers (`terms.rs` of this law,
+/// `dynamics/conditions.rs`), and at least [`SHORTEST`] if a pretensioner or slip through a ring takes webbing in. 1 +
+/// ε and the resistance of a ring (`webbing.rs`, `ring.rs`), the slope of unloading and the stretch of damping are
+/// positive by their rules.
 const SMALLEST_SQUARED_LENGTH: f64 = 1e-20;
 
 /// A belt that is being applied.
 #[derive(Clone, Copy)]
 pub struct Law<'a, 'g> {
-    /// Of the expressions.
+    /// The graph of the expressions.
     pub graph: &'g Graph,
-    /// Which it is of.
+    /// The model that the belt belongs to.
     pub model: &'a Model,
-    /// Its name.
+    /// Name of the belt.
     pub name: &'a str,
-    /// Whether it acts.
+    /// Condition under which the belt acts.
     pub gate: Gate<'g>,
-    /// What it is.
+    /// The checked form of the belt.
     pub belt: &'a Belt,
 }
 
-/// A straight part of a belt, between two points of it.
+/// A straight part of a belt, between two successive points.
 pub struct Segment<'g> {
-    /// What messages call it.
+    /// Name of the segment in messages.
     owner: String,
-    /// Unit vector from its first point to its second.
+    /// Unit vector from the first point to the second.
     pub direction: Vec3<'g>,
-    /// Velocity of the second point less that of the first \[m/s\].
+    /// Velocity of the second point relative to the first \[m/s\].
     moving: Vec3<'g>,
     /// Distance of the points \[m\].
     span: Expr<'g>,
-    /// Its rate \[m/s\].
+    /// Rate of the distance \[m/s\].
     rate: Expr<'g>,
-    /// Its webbing.
+    /// The webbing of the segment.
     pub webbing: Webbing<'g>,
     /// (L − ℓ)/ℓ
     elongation: Expr<'g>,
-    /// Tension without a bound \[N\].
+    /// Elastic tension, not yet limited \[N\].
     elastic: Expr<'g>,
-    /// Elongation at which the unloading line meets no force.
+    /// Elongation at which the force on the unloading line is 0.
     permanent_set: Expr<'g>,
-    /// How many curves had been told of before those of this segment.
+    /// Number of curves registered before those of this segment.
     curves: usize,
-    /// Tension without damping, once a retractor has locked \[N\].
+    /// Tension without damping, valid once a retractor has locked \[N\].
     undamped: Expr<'g>,
-    /// Rate at which webbing leaves through its rings, and off the reel the other way \[m/s\].
+    /// Rate at which webbing leaves the segment: through its rings, less the rate at which it comes off the reel
+    /// \[m/s\].
     leaving: Expr<'g>,
 }
 
@@ -128,7 +132,7 @@ impl Equations for Belt {
     }
 }
 
-/// Applies a belt; `start` is the motion from which it takes its lengths.
+/// Applies a belt. `start` is the motion that determines its initial lengths.
 fn apply<'g>(
     law: Law<'_, 'g>,
     motion: &Motion<'g>,
@@ -199,7 +203,7 @@ fn apply<'g>(
     }
 }
 
-/// The force on each point of a belt, of the pulls of its segments along them.
+/// The force on each point of a belt. `pulls` are the force vectors of its segments.
 fn on_points<'g>(pulls: &[Vec3<'g>]) -> Vec<Vec3<'g>> {
     let last = pulls.len();
     let on = |index: usize| match index {
@@ -214,14 +218,15 @@ fn nth(belt: &Belt, index: usize) -> &Attachment {
     belt.points().nth(index).unwrap_or(&belt.to)
 }
 
-/// Distance of two points of the same body, which never changes; `None` of two bodies.
+/// Distance of two points of the same body, which is constant; `None` if they are on different bodies.
 fn between<'g>(graph: &'g Graph, from: &Attachment, to: &Attachment) -> Option<Expr<'g>> {
     let apart = || vector(graph, &to.at) - vector(graph, &from.at);
     (from.on == to.on).then(|| length(graph, apart().squared()))
 }
 
-/// Distance of two points, unit vector from the first to the second, and the rate of the distance. `rigid` is the distance where both are on the
-/// same body: computed from their motions, its rate would be rounding whose sign changes at every step.
+/// Distance of two points, unit vector from the first to the second, and rate of the distance. `rigid` is the distance
+/// if both points are on the same body: a rate computed from their motions would be rounding, whose sign changes at
+/// every step.
 fn straight<'g>(
     graph: &'g Graph,
     [from, to]: [&Point<'g>; 2],
@@ -237,7 +242,7 @@ fn straight<'g>(
     (span, direction, rate)
 }
 
-/// A segment, with its elastic tension. Webbing has slipped `fed[0]` into it and `fed[1]` out of it.
+/// A segment with its elastic tension. A length `fed[0]` of webbing has slipped into it, and `fed[1]` out of it.
 fn segment<'g>(
     law: Law<'_, 'g>,
     applied: &mut AppliedForces<'g>,
@@ -283,7 +288,7 @@ fn segment<'g>(
 }
 
 impl<'g> Segment<'g> {
-    /// Tension \[N\] with a viscous force, once a retractor has locked.
+    /// Tension with a viscous force, valid once a retractor has locked \[N\].
     fn tension(&self, law: Law<'_, 'g>, viscous: Expr<'g>) -> Expr<'g> {
         let arguments = [self.elongation, self.elastic, viscous];
         let tension = law.graph.call(Function::BeltTension, &arguments);
@@ -292,7 +297,7 @@ impl<'g> Segment<'g> {
             .of(limit.map_or(tension, |limit| tension.min(limit)))
     }
 
-    /// Tension of what is stretched, or of the reel as long as that is not locked \[N\].
+    /// Tension without damping; that of the reel while it is not locked \[N\].
     pub fn held(&self, law: Law<'_, 'g>) -> Expr<'g> {
         match self.webbing.retractor {
             Some((_, spool)) => self.webbing.once_locked(self.undamped, law.gate.of(spool)),
@@ -300,7 +305,8 @@ impl<'g> Segment<'g> {
         }
     }
 
-    /// Watches where the limiter begins and ends, and where a hysteresis turns.
+    /// Watches where the limiter begins and ends to pay out, and where a hysteresis changes between loading and
+    /// unloading.
     fn watch(&self, law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) {
         let (webbing, graph) = (self.webbing, law.graph);
         webbing.watch_limiter(applied, law.name, [self.rate, self.leaving]);
@@ -318,8 +324,9 @@ impl<'g> Segment<'g> {
         }
     }
 
-    /// A rate of growth that changes its sign once the segment shortens, or lengthens again, by more than [`NOISE`]; which it did last is
-    /// remembered.
+    /// An event function for the turns of `growing`, with a dead band of ± [`NOISE`]: it changes its sign when a
+    /// segment that was lengthening shortens faster than the noise, or the other way round. A memory holds which of the
+    /// two the segment did last.
     fn beyond_noise(&self, applied: &mut AppliedForces<'g>, growing: Expr<'g>) -> Expr<'g> {
         let graph = growing.graph();
         let (zero, one, half) = (
@@ -335,7 +342,7 @@ impl<'g> Segment<'g> {
         event_function
     }
 
-    /// Tells where the tension without damping, by which webbing slips, has kinks.
+    /// Adds the kinks of the tension without damping, which drives the slip of webbing.
     pub fn tell_held(&self, applied: &mut AppliedForces<'g>) {
         let (webbing, elongation, elastic) = (self.webbing, self.elongation, self.elastic);
         let one = elongation.graph().constant(1.0);
@@ -349,12 +356,13 @@ impl<'g> Segment<'g> {
         }
     }
 
-    /// Says that webbing leaves the segment at this rate \[m/s\].
+    /// Adds a rate at which webbing leaves the segment \[m/s\].
     pub fn leaves(&mut self, rate: Expr<'g>) {
         self.leaving = self.leaving + rate;
     }
 
-    /// The tension, with all that is to be told of it. Of a belt that runs through rings `whole` is its length \[m\].
+    /// The tension; adds kinks, events and powers of the segment. `whole` is the untensioned length of the whole belt,
+    /// if it runs through rings \[m\].
     fn pull(
         &self,
         law: Law<'_, 'g>,
@@ -396,7 +404,7 @@ impl<'g> Segment<'g> {
         tension
     }
 
-    /// The tension with the damping `damping` of the rate `rate`.
+    /// The tension with a damping force: the coefficient `damping` times the rate `rate`, faded in.
     fn damped(
         &self,
         law: Law<'_, 'g>,
@@ -413,13 +421,14 @@ impl<'g> Segment<'g> {
             span - webbing.undamped,
             belt.damping_stretch.as_ref(),
         );
-        // a retractor locks where the webbing is stretched already
+        // after the retractor has locked, the belt may be shorter than its undamped length and yet taut
         let fade = match webbing.retractor {
             Some(_) => fade.max(graph.constant(0.0)),
             None => fade,
         };
         let viscous = damping * fade * rate;
-        // the tension has a kink where it goes taut, and ends while still stretched where damping would push
+        // the tension begins where the belt goes taut; it ends while the belt is still stretched if damping would make
+        // it negative
         applied.kink(format!("{owner}: pulls"), move || {
             let pulls = choose(zero, elongation, elastic + viscous, elongation);
             webbing.once_locked(pulls, one)
@@ -444,7 +453,7 @@ impl<'g> Segment<'g> {
         self.tension(law, viscous)
     }
 
-    /// Tells where its curves have corners, and how far it is from being taut.
+    /// Adds the corners of the segment's curves, and the distance from going taut.
     fn tell(&self, law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) {
         let Law {
             graph, gate, belt, ..
@@ -453,7 +462,7 @@ impl<'g> Segment<'g> {
         let (elongation, leaving) = (self.elongation, self.leaving);
         let one = graph.constant(1.0);
         let below = move || webbing.once_locked(elongation, -one);
-        // nothing leaves where there are no rings and no film spool
+        // webbing leaves only through rings, or comes off a film spool
         let speed = move || match leaving.is_zero() {
             true => size(moving) + absolute(webbing.taken_in),
             false => size(moving) + absolute(webbing.taken_in) + absolute(leaving),
@@ -479,14 +488,14 @@ impl<'g> Segment<'g> {
 }
 
 impl<'g> Webbing<'g> {
-    /// `then` once a retractor, if there is one, has locked; `otherwise` before.
+    /// `then` once the retractor has locked, or if there is none; `otherwise` before.
     pub fn once_locked(&self, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
         self.retractor
             .map_or(then, |(lock, _)| lock.once(then, otherwise))
     }
 }
 
-/// The elastic tension, and the elongation that remains without it.
+/// The elastic tension, and the permanent elongation.
 fn elastic<'g>(
     law: Law<'_, 'g>,
     applied: &mut AppliedForces<'g>,
@@ -500,7 +509,7 @@ fn elastic<'g>(
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     match &belt.hysteresis {
         Some(law) => {
-            // what is remembered must be finite, and a curve need not be defined while slack
+            // the memory of a hysteresis must be finite, and a curve need not have a value while the belt is slack
             let elongation = (ratio - one).max(zero);
             let loading = curve(graph, &belt.force, elongation);
             hysteresis::apply(applied, owner, "", law, gate, elongation, loading, below)
@@ -509,7 +518,8 @@ fn elastic<'g>(
     }
 }
 
-/// Counts the powers of a segment whose webbing pulls with `undamped` and, with damping, with `stretched`, at the rate of stretch `stretching`.
+/// Adds the powers of a segment. The webbing pulls with `undamped`, or with damping with `stretched`, and is stretched
+/// at the rate `stretching`.
 fn works<'g>(
     graph: &'g Graph,
     applied: &mut AppliedForces<'g>,
@@ -562,12 +572,12 @@ fn works<'g>(
     }
 }
 
-/// √ of a squared distance, never 0.
+/// √ of a squared distance, with a lower bound above 0.
 pub fn length<'g>(graph: &'g Graph, squared: Expr<'g>) -> Expr<'g> {
     squared.max(graph.constant(SMALLEST_SQUARED_LENGTH)).sqrt()
 }
 
-/// Lengths of the segments at the start.
+/// Distances of the points of the segments at the start.
 fn initial_lengths<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> Vec<Expr<'g>> {
     let points: Vec<&Attachment> = belt.points().collect();
     let pairs = points.windows(2);
@@ -585,8 +595,8 @@ fn sum<'g>(lengths: &[Expr<'g>]) -> Expr<'g> {
     lengths[1..].iter().fold(lengths[0], |sum, &l| sum + l)
 }
 
-/// What parameters must not make negative: by how much the length at the start is more than nothing \[m\]. A given length is ruled by
-/// itself.
+/// An expression that parameters must not make negative: the untensioned length at the start less its least value
+/// \[m\]. A given length has a rule of its own.
 pub fn length_at_start<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) -> Expr<'g> {
     let slack = match &belt.length {
         BeltLength::Given(_) => return graph.constant(0.0),
@@ -596,7 +606,8 @@ pub fn length_at_start<'g>(graph: &'g Graph, start: &Motion<'g>, belt: &Belt) ->
     sum(&initial_lengths(graph, start, belt)) + slack - graph.constant(SHORTEST)
 }
 
-/// L₀ of a segment. A length and a slack of several are shared out by the distances at the start, so that all have the same tension.
+/// L₀ of a segment. The given length or slack of a belt of several segments is divided in proportion to their distances
+/// at the start, so that all have the same tension.
 fn untensioned_length<'g>(
     graph: &'g Graph,
     belt: &Belt,
@@ -609,7 +620,7 @@ fn untensioned_length<'g>(
         initial / (graph.constant(1.0) + elongation)
     };
     match (&belt.length, &belt.retractor) {
-        // what the reel holds at the start
+        // other segments start with the tension that the reel holds
         (_, Some(retractor)) if index > 0 && !retractor.spool.is_zero() => under(&retractor.spool),
         (BeltLength::Given(length), _) if alone => number(graph, length),
         (BeltLength::Given(length), _) => number(graph, length) * (initial / sum(initials)),

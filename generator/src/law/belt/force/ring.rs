@@ -4,11 +4,12 @@
 //!
 //! c ṡ = max(T_behind − R T_before, 0) − max(T_before − R T_behind, 0)
 //!
-//! s is the untensioned length that has slipped from the segment before the ring into that behind it: a state. Between T_behind/T_before = 1/R
-//! and R the webbing sticks, ṡ = 0 exactly. Beyond, it slips, and what the tensions exceed the ratio by is c ṡ. The tensions are those without
-//! damping. c belongs to the law, and keeps ṡ a function of the state: webbing has no mass here that could be accelerated.
+//! s is a state: the untensioned length that has slipped from the segment before the ring into the segment behind it.
+//! While T_behind/T_before is between 1/R and R, the webbing sticks, ṡ = 0 exactly. Beyond, it slips, and the excess of
+//! the tension over the ratio is c ṡ. The tensions are those without damping. The resistance c is part of the law, and
+//! makes ṡ a function of the state: webbing has no mass here that could be accelerated.
 //!
-//! Where a segment has run out, ℓ ≤ ℓ_e, no more slips from it, and up to 2 ℓ_e the slip slows down.
+//! A segment has run out at ℓ ≤ ℓ_e: no more webbing slips out of it. From 2 ℓ_e down to ℓ_e the slip slows down.
 
 use super::{Law, Segment};
 use crate::dynamics::force::{AppliedForces, Product};
@@ -17,10 +18,10 @@ use crate::expression::{Expr, Function, Graph};
 use crate::law::belt::check::RUN_OUT;
 use crate::law::belt::outputs::SegmentMeasures;
 
-/// Smallest square of the sine of θ whose root is taken: the root has no slope at 0.
+/// Lower bound of sin² θ under the root, whose slope is infinite at 0.
 const SMALLEST_SQUARE: f64 = 1e-24;
 
-/// The state of a ring.
+/// The state of a ring: webbing that has slipped through it.
 pub struct Ring<'g> {
     /// Index of the state.
     index: usize,
@@ -41,13 +42,13 @@ pub fn rings<'g>(law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) -> Vec<Ring<
 /// Rates at which webbing moves \[m/s\].
 #[derive(Default)]
 pub struct Slips<'g> {
-    /// Through each ring.
+    /// Through each ring, from the side of `from`.
     through: Vec<Expr<'g>>,
-    /// Off a film spool, where there is one.
+    /// Off a film spool, if there is one.
     given: Option<Expr<'g>>,
 }
 
-/// Lets webbing slip from segment to segment, and off a film spool.
+/// Lets webbing slip from segment to segment, and come off a film spool. Returns the rates.
 pub fn slip<'g>(
     law: Law<'_, 'g>,
     applied: &mut AppliedForces<'g>,
@@ -89,7 +90,7 @@ pub fn slip<'g>(
     slips
 }
 
-/// Counts what is lost in the rings and the film spool.
+/// Adds the powers that are lost in the rings and the film spool.
 pub fn works<'g>(
     law: Law<'_, 'g>,
     applied: &mut AppliedForces<'g>,
@@ -108,7 +109,7 @@ pub fn works<'g>(
     }
 }
 
-/// e^(μ θ) between two segments.
+/// e^(μ θ) for the ring between two segments.
 fn ratio<'g>(graph: &'g Graph, friction: Expr<'g>, segments: &[Segment<'g>]) -> Expr<'g> {
     let [before, behind] = [segments[0].direction, segments[1].direction];
     let least = graph.constant(SMALLEST_SQUARE);
@@ -118,7 +119,7 @@ fn ratio<'g>(graph: &'g Graph, friction: Expr<'g>, segments: &[Segment<'g>]) -> 
     graph.call(Function::Power, &[e, friction * angle])
 }
 
-/// 1 where a segment has webbing that may slip from it, 0 where it has run out.
+/// 1 if a segment has webbing that may slip out of it, 0 if it has run out; between them, a linear transition.
 fn room<'g>(graph: &'g Graph, segment: &Segment<'g>) -> Expr<'g> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let left = segment.webbing.length * graph.constant(1.0 / RUN_OUT) - one;

@@ -1,21 +1,21 @@
-//! Webbing that is paid out and taken in: what the untensioned length ℓ of a belt of length L becomes, or that of its first segment.
+//! Webbing that is paid out and taken in: the untensioned length ℓ of a belt of length L, or of its first segment.
 //!
 //! ℓ = b − r + x + y − s
 //!
 //! | | |
 //! |---|---|
-//! | b | L₀; with a retractor such that the belt pulls with its spool, b − r + x − s = L/(1 + ε_s), until it locks: the b of that moment is remembered |
-//! | r | what the pretensioner has taken in, a curve of the time since it fired |
-//! | x | what the limiter has paid out for good, remembered: x ← max(x, L/(1 + ε_F) − b + r − y + s) |
-//! | y | what the film spool has given, a state: c ẏ = T − T_s − curve(y) once the retractor has locked, and ẏ ≥ −y/τ, so that y ≥ 0 |
-//! | s | what has slipped out through the first ring |
+//! | b | L₀. With a retractor, until it locks: such that the belt pulls with the tension of the spool, b − r + x + y − s = L/(1 + ε_s); afterwards the value of b at that moment, which is remembered |
+//! | r | length that the pretensioner has taken in, a curve of the time since it fired |
+//! | x | length that the limiter has paid out for good, remembered: x ← max(x, L/(1 + ε_F) − b + r − y + s) |
+//! | y | length that the film spool has given, a state: c ẏ = T − T_s − curve(y) once the retractor has locked, and ẏ ≥ −y/τ, so that y ≥ 0 |
+//! | s | length that has slipped out through the first ring |
 //!
-//! ε_s and ε_F are the elongations at which the curve takes the tensions of the retractor and of the limiter. What is remembered
-//! is so when a step is accepted, and gives the very tension that there was: nothing jumps where a step ends.
+//! ε_s and ε_F are the elongations at which the curve has the tension of the retractor and of the limiter. Memory
+//! changes only when a step is accepted, and reproduces the tension at that moment: nothing jumps at the end of a step.
 //!
-//! While the limiter pays out, x follows L also within a step, so that the elongation stays at ε_F; whether it does is
-//! remembered too, and event functions end the steps where it begins, L = (1 + ε_F) ℓ, and where it ends because the webbing no more
-//! lengthens, L̇ + (1 + ε_F) (ṙ + ṡ − ẏ) = 0.
+//! While the limiter pays out, x follows L also within a step, so that the elongation stays at ε_F. Whether the limiter
+//! pays out is remembered too. Event functions end the steps where it begins, L = (1 + ε_F) ℓ, and where it ends
+//! because the webbing no longer lengthens, L̇ + (1 + ε_F) (ṙ + ṡ − ẏ) = 0.
 
 use super::Law;
 use crate::dynamics::force::switch::Remembered;
@@ -26,52 +26,54 @@ use crate::expression::{Expr, Function, Graph};
 use crate::law::belt::check::{RESISTANCE, SHORTEST};
 use crate::model::{Belt, Number};
 
-/// Most kinks of the curve of a pretensioner that steps end at; those of a curve of more points are passed as smooth.
+/// Steps end at the kinks of the curve of a pretensioner if it has at most this many; a curve with more is treated as
+/// smooth.
 const MOST_KINKS: usize = 32;
 
-/// Where webbing slips, the sign of rates below this is ignored \[m/s\]: slip settles within less than a step, so the sign of a smaller rate is
-/// rounding.
+/// Rates below this count as 0 where webbing slips \[m/s\]: slip settles within less than a step, so the sign of a
+/// smaller rate is rounding.
 pub const NOISE: f64 = 1e-3;
 
-/// Time within which a film spool takes back the webbing that it gave, where nothing pulls \[s\].
+/// Time constant with which a film spool takes back the webbing that it gave, if nothing pulls \[s\].
 const BACK: f64 = 1e-3;
 
-/// What is known of the webbing of a belt.
+/// The untensioned length of the webbing of a belt or segment, and its devices.
 #[derive(Clone, Copy)]
 pub struct Webbing<'g> {
     /// ℓ \[m\].
     pub length: Expr<'g>,
     /// ℓ at the start \[m\].
     pub initial: Expr<'g>,
-    /// ṙ, the rate at which it is taken in \[m/s\].
+    /// ṙ, the rate at which webbing is taken in \[m/s\].
     pub taken_in: Expr<'g>,
-    /// Length of the belt up to which it is not damped: ℓ, or that at which a retractor locked \[m\].
+    /// Length of the belt up to which damping is 0: ℓ, or with a retractor ℓ (1 + ε_s), at which the belt pulls with
+    /// the tension of the spool \[m\].
     pub undamped: Expr<'g>,
-    /// The switch that locks the retractor, and the tension until then \[N\].
+    /// The switch that locks the retractor, and the tension until it locks \[N\].
     pub retractor: Option<(Remembered<'g>, Expr<'g>)>,
-    /// What the film spool has given: its state.
+    /// Length that the film spool has given: index and value of the state.
     pub film: Option<(usize, Expr<'g>)>,
     /// The limiter.
     pub limiter: Option<Limiter<'g>>,
 }
 
-/// A limiter, as far as it is known before the rates are.
+/// The part of a limiter that is known before the rates are.
 #[derive(Clone, Copy)]
 pub struct Limiter<'g> {
-    /// Its force \[N\].
+    /// Force of the limiter \[N\].
     pub force: Expr<'g>,
-    /// 1 while it pays out, else 0.
+    /// 1 while the limiter pays out, otherwise 0.
     pub pays: Expr<'g>,
-    /// The memory of that.
+    /// Index of the memory of `pays`.
     paying: usize,
     /// 1 + ε_F
     yields: Expr<'g>,
-    /// L − (1 + ε_F) ℓ, of the ℓ that is remembered \[m\].
+    /// L − (1 + ε_F) ℓ, with ℓ computed from the remembered x \[m\].
     beyond: Expr<'g>,
 }
 
-/// The webbing of a belt, or of its first segment, that spans `span` \[m\] now and `initial_span` at the start; `untensioned` is L₀ \[m\],
-/// `slipped` has gone out of it.
+/// The webbing of a belt, or of its first segment. Its points are `span` apart now and `initial_span` at the start
+/// \[m\]; `untensioned` is L₀ \[m\]; `slipped` is the length that has slipped out of it.
 pub fn webbing<'g>(
     law: Law<'_, 'g>,
     applied: &mut AppliedForces<'g>,
@@ -98,7 +100,7 @@ pub fn webbing<'g>(
         .film_spool
         .as_ref()
         .map(|_| applied.auxiliary(format!("belt {name}: given by the film spool"), "m", zero));
-    // what makes ℓ longer beside the devices
+    // additions to ℓ by slip and film spool
     let given = match (film, slipped) {
         (Some((_, film)), Some(slipped)) => film - slipped,
         (Some((_, film)), None) => film,
@@ -120,7 +122,7 @@ pub fn webbing<'g>(
     let mut length = base - taken + given;
     let limiter = paid.map(|(force, (paid, payout), (paying, pays))| {
         let yields = one + elongation(graph, belt, force);
-        // what drags on the left: its derivatives count where both are equal
+        // the operand that varies with L stands on the left: if both are equal, its derivatives count
         let paid_now = (span / yields - length).max(payout);
         let beyond = span - yields * (length + payout);
         length = length + choose(pays, half, payout, paid_now);
@@ -148,7 +150,8 @@ pub fn webbing<'g>(
 }
 
 impl<'g> Webbing<'g> {
-    /// That of a segment without devices, of the length L₀; webbing has slipped `fed[0]` into it and `fed[1]` out of it.
+    /// The webbing of a segment without devices, of length L₀. A length `fed[0]` has slipped into it, and `fed[1]` out
+    /// of it.
     pub fn without_devices(untensioned: Expr<'g>, fed: [Option<Expr<'g>>; 2]) -> Self {
         let graph = untensioned.graph();
         let length = match fed {
@@ -169,7 +172,8 @@ impl<'g> Webbing<'g> {
         }
     }
 
-    /// Watches where the limiter begins to pay out, and where it ends. The span lengthens at the rate `rate`, webbing leaves at `leaving`.
+    /// Watches where the limiter begins to pay out, and where it ends. `rate` is the rate of the span, `leaving` the
+    /// rate at which webbing leaves.
     pub fn watch_limiter(
         &self,
         applied: &mut AppliedForces<'g>,
@@ -200,7 +204,7 @@ impl<'g> Webbing<'g> {
         applied.event_function(format!("belt {name}: limiter"), event_function);
     }
 
-    /// The rate at which the film spool gives webbing, which pulls with `tension`; nothing without one.
+    /// The rate at which the film spool gives webbing under the tension `tension`; `None` without a film spool.
     pub fn film(
         &self,
         law: Law<'_, 'g>,
@@ -224,7 +228,7 @@ impl<'g> Webbing<'g> {
     }
 }
 
-/// The elongation at which the curve takes a tension.
+/// The elongation at which the tension curve has this tension.
 fn elongation<'g>(graph: &'g Graph, belt: &Belt, tension: &Number) -> Expr<'g> {
     let tension = number(graph, tension);
     if tension.is_zero() {
@@ -233,7 +237,7 @@ fn elongation<'g>(graph: &'g Graph, belt: &Belt, tension: &Number) -> Expr<'g> {
     inverse(graph, &belt.force, tension)
 }
 
-/// r and ṙ, both 0 until it fires and for its delay; and an event function at each kink.
+/// r and ṙ, both 0 until the pretensioner fires and its delay is over. Adds an event function at each kink.
 fn pretensioner<'g>(law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) -> (Expr<'g>, Expr<'g>) {
     let Law {
         graph,
@@ -258,7 +262,7 @@ fn pretensioner<'g>(law: Law<'_, 'g>, applied: &mut AppliedForces<'g>) -> (Expr<
     let begins = delay.map_or(fire.since, |delay| fire.since + delay);
     let since = (now - begins).max(zero);
     let slope = derivative(graph, retract, Function::CurveSlope, since);
-    // before it begins, the slope is that of the first piece
+    // until the delay is over the rate is 0, although the curve has the slope of its first piece at 0
     let slope = match delay {
         Some(_) => choose(now, begins, zero, slope),
         None => slope,

@@ -1,20 +1,21 @@
-//! Where a plane ends: a weight w on the normal force by where the deepest point projects.
+//! The edges of a plane: a weight w on the normal force, which depends on where the deepest point projects.
 //!
-//! With ξ_i the coordinates of that point along the plane's tangents t_i and e_i the half-lengths:
+//! With ξ_i the coordinates of the deepest point along the plane's tangents t_i, and e_i the half-lengths:
 //!
 //! | rule | w |
 //! |---|---|
 //! | cut | 1 where every \|ξ_i\| < e_i, 0 elsewhere |
 //! | fade | Π S((e_i − \|ξ_i\|)/width),   S(x) = x² (3 − 2x) for x in \[0, 1\], 0 below and 1 above |
 //!
-//! A weight that depends on the place makes the elastic force N = w f(δ) no gradient: what is stored, w E(δ) with
-//! E = ∫ f, also changes with ξ. So a fading edge pushes the ellipsoid outwards as well, by the force −E ∂w/∂ξ_i along t_i, and
-//! energy closes. The deepest point is no point of the body's material: with u the vector from it to the centre, which
-//! turns as u̇ = ω × u − K (ω × n) relative to the plane (K the second derivative of how far the ellipsoid reaches),
+//! Because the weight depends on the place, the elastic force N = w f(δ) alone is not the gradient of the stored energy
+//! w E(δ), E = ∫ f, which also changes with ξ. So a fading edge also pushes the ellipsoid outwards, by the force −E
+//! ∂w/∂ξ_i along t_i, and energy is conserved. The deepest point is not fixed in the body: let u be the vector from it
+//! to the centre, which turns as u̇ = ω × u − K (ω × n) relative to the plane (K is the second derivative of how far
+//! the ellipsoid reaches). Then
 //!
 //! ξ̇_i = t_i·v_centre − m_i·ω,   m_i = u × t_i − n × K t_i,
 //!
-//! whence the force acts at the centre, with a moment E ∂w/∂ξ_i m_i, which of a sphere is 0.
+//! so the force acts at the centre, with a moment E ∂w/∂ξ_i m_i, which is 0 for a sphere.
 
 use crate::dynamics::force::choose;
 use crate::dynamics::force::{AppliedForces, Product};
@@ -23,19 +24,19 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::model::{EdgeRule, Extent};
 
-/// How much of a contact's force there is.
+/// The weight on a contact's force, and where the deepest point is relative to the edges.
 pub struct Weight<'g> {
     /// w
     pub weight: Expr<'g>,
-    /// Positive inside, negative outside \[m\].
+    /// Positive if the deepest point is inside the edges, negative if it is outside \[m\].
     pub inside: Expr<'g>,
-    /// By tangent: how far inside \[m\].
+    /// For each tangent, the distance from the edge to the inside \[m\].
     pub from_edge: Vec<Expr<'g>>,
-    /// ∂w/∂ξ_i \[1/m\]; none where the edge cuts.
+    /// ∂w/∂ξ_i \[1/m\]; empty if the edge cuts.
     pub slopes: Vec<Expr<'g>>,
 }
 
-/// The weight at a place on the plane, by its coordinates along the tangents.
+/// The weight at a place on the plane, given by its coordinates along the tangents.
 pub fn weight<'g>(extent: &Extent, place: &[Expr<'g>]) -> Weight<'g> {
     let graph = place[0].graph();
     let constant = |x: f64| graph.constant(x);
@@ -83,7 +84,7 @@ pub fn weight<'g>(extent: &Extent, place: &[Expr<'g>]) -> Weight<'g> {
     }
 }
 
-/// Tells where the weight is not smooth: it ends at the edge; a fading one begins where it is fully inside.
+/// Adds the places where the weight is not smooth: the edge, and for a fading edge also the line where fading begins.
 pub fn kinks<'g>(
     applied: &mut AppliedForces<'g>,
     owner: &str,
@@ -107,8 +108,8 @@ pub fn kinks<'g>(
     }
 }
 
-/// What a fading edge pushes: a force at the centre of the ellipsoid and a moment on its body, the opposite of both on the
-/// plane's.
+/// The push of a fading edge: a force at the centre of the ellipsoid and a moment on its body. The opposite of both
+/// acts on the plane's body.
 pub struct Push<'g> {
     /// \[N\]
     pub force: Vec3<'g>,
@@ -116,8 +117,8 @@ pub struct Push<'g> {
     pub moment: Vec3<'g>,
 }
 
-/// The push of an edge, of the energy E stored at full weight; `moving` are t_i and m_i. `centre` is the velocity of the
-/// ellipsoid's centre and `omega` the angular velocity of its body, both relative to the plane's.
+/// The push of an edge. `stored` is the energy E at full weight; `moving` has t_i and m_i. `centre` is the velocity of
+/// the ellipsoid's centre and `omega` the angular velocity of its body, both relative to the plane's body.
 pub fn push<'g>(
     applied: &mut AppliedForces<'g>,
     owner: &str,

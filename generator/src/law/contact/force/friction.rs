@@ -1,18 +1,19 @@
-//! Friction of a contact: Coulomb's, regularised by speed, or by a bristle that holds.
+//! Friction of a contact: Coulomb friction, regularised by speed or by a bristle that holds.
 //!
-//! **By speed.** F = −μN v/max(|v|, v_s): a function of the state alone, under which a body at rest creeps.
+//! **By speed.** F = −μN v/max(|v|, v_s): a function of the state alone; a body that should stick creeps slowly.
 //!
-//! **By a bristle.** A spring and a damper in parallel, in series with a slider that yields at μN: with the deflection z of the
-//! bristle in the tangent plane,
+//! **By a bristle.** A spring and a damper in parallel, in series with a slider that yields at μN. With the deflection
+//! z of the bristle in the tangent plane,
 //!
 //! s_t = z/z_b + v/v_s,   s = s_t/max(1, |s_t|),   F = −μN s,   ż = v_s (s − z/z_b).
 //!
-//! Where |s_t| ≤ 1 it sticks: ż = v exactly, an elastic-viscous support of stiffness μN/z_b that nothing creeps out of. Beyond,
-//! it slides under the whole μN, and z follows s z_b with the rate v_s/z_b, which no speed makes stiff; |z| ≤ z_b always. While
-//! apart s counts as 0 and the bristle straightens at the same rate.
+//! While |s_t| ≤ 1 the contact sticks: ż = v exactly, an elastic-viscous support of stiffness μN/z_b that does not
+//! creep. Beyond, it slides with the full friction μN, and z follows s z_b at the rate v_s/z_b, which is not stiff at
+//! any speed; |z| ≤ z_b always. While the bodies are apart, s counts as 0 and the bristle straightens at the same rate.
 //!
-//! z is kept along axes of the second body, in which a material line at rest stays at rest: two axes of a plane, or, where
-//! the normal wanders, all three, of which the part along the normal counts for nothing and decays.
+//! z is stored along axes of the second body, in which a bristle at rest has constant components: two axes of a plane
+//! or, if the normal changes its direction, all three axes. Then the component along the normal has no effect and
+//! decays.
 
 use super::{AppliedForces, Product, Touch};
 use crate::dynamics::force::choose;
@@ -21,15 +22,15 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, sum};
 use crate::model::{Dimension, Friction, Number};
 
-/// What friction does.
+/// The result of friction.
 pub struct Rubbing<'g> {
-    /// On the first body, absolute axes \[N\].
+    /// Force on the first body, in absolute axes \[N\].
     pub force: Vec3<'g>,
-    /// Its magnitude \[N\]; signed in the plane.
+    /// Magnitude of the force \[N\]; signed in the plane.
     pub magnitude: Expr<'g>,
 }
 
-/// Friction under a normal force; `owner` is the contact ("contact seat").
+/// Friction under a normal force. `owner` is the name of the contact, such as "contact seat".
 pub fn friction<'g>(
     applied: &mut AppliedForces<'g>,
     dimension: Dimension,
@@ -129,7 +130,7 @@ fn sticking<'g>(
         .collect();
     let mut tangential: Vec<Expr<'g>> = bristle.iter().map(|(_, z)| *z).collect();
     if let [x, y, z] = tangential[..] {
-        // what has come to point along the normal
+        // removes the component that now points along the normal
         let normal: Vec<Expr<'g>> = axes.iter().map(|axis| axis.dot(touch.normal)).collect();
         let along = x * normal[0] + y * normal[1] + z * normal[2];
         for (z, n) in tangential.iter_mut().zip(normal) {
@@ -141,7 +142,7 @@ fn sticking<'g>(
         .zip(&slip)
         .map(|(z, v)| *z / deflection + *v / tolerance)
         .collect();
-    // in this order of operands a NaN is passed on
+    // with the operands in this order, a NaN stays a NaN
     let (share, magnitude): (Vec<Expr<'g>>, _) = match trial[..] {
         [trial] => {
             let share = trial.max(-one).min(one);

@@ -1,8 +1,8 @@
 //! Contact of an ellipsoid with a plane, or with another ellipsoid ([pair]).   \[MADYMO 1980, force model 3\]
 //!
-//! With the plane's normal n, the ellipsoid reaches h from its centre towards the plane, and its deepest point is p
-//! ([support]); the penetration is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p relative to
-//! the plane's there; then
+//! n is the plane's normal, h the reach of the ellipsoid from its centre towards the plane, and p its deepest point
+//! ([support]); the penetration is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p
+//! relative to that of the plane at p. Then
 //!
 //! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n + friction
 //!
@@ -29,44 +29,46 @@ use pair::on_ellipsoid;
 use std::rc::Rc;
 use support::Support;
 
-/// Where and how two bodies touch, absolute axes.
+/// Place and motion of the touch of two bodies, in absolute axes.
 pub(crate) struct Touch<'g> {
-    /// δ \[m\]; where the bodies do not touch, a negative number will do.
+    /// δ \[m\]; any negative number while the bodies do not touch.
     pub(crate) penetration: Expr<'g>,
-    /// δ, and minus their distance where they do not touch \[m\].
+    /// δ while the bodies touch, minus their distance while they do not \[m\].
     pub(crate) overlap: Expr<'g>,
     /// Unit vector from the second body to the first.
     pub(crate) normal: Vec3<'g>,
-    /// Where forces act, from the joint of the first body.
+    /// Vector from the joint of the first body to the point where forces act.
     pub(crate) offset: Vec3<'g>,
-    /// And from that of the second.
+    /// Vector from the joint of the second body to the point where forces act.
     pub(crate) offset_on_second: Vec3<'g>,
-    /// Velocity of the first body's material there relative to the second's \[m/s\].
+    /// Velocity of the first body's material at this point, relative to the second's \[m/s\].
     velocity: Vec3<'g>,
     /// δ̇ \[m/s\]
     pub(crate) approach: Expr<'g>,
-    /// Of two ellipsoids: from the centre of the first to that of the second.
+    /// For two ellipsoids: vector from the centre of the first to that of the second.
     pub(crate) between: Option<Vec3<'g>>,
-    /// From the joints of the bodies to the centre of the first.
+    /// Vectors from the joint of the first body, and from that of the second, to the centre of the first ellipsoid.
     centre: Vec3<'g>,
     centre_on_second: Vec3<'g>,
-    /// Where on the plane, along its tangents \[m\]; empty where it has no edges.
+    /// Coordinates of the deepest point along the tangents of the plane \[m\]; empty if the plane has no edges.
     place: Vec<Expr<'g>>,
-    /// The tangents and the moments of the deepest point's motion along them, where an edge fades.
+    /// For a fading edge: each tangent t, and the vector m of the motion of the deepest point along t.
     moving: Vec<[Vec3<'g>; 2]>,
-    /// What is 0 where the deepest point passes from one flat side of an ellipsoid of a degree other than 2 to the other.
+    /// For an ellipsoid of a degree other than 2: expressions that are 0 when the deepest point passes from one flat
+    /// side to another.
     flats: Vec<Expr<'g>>,
-    /// In space, where something needs them: axes fixed in the second body, either two along the plane, or three.
+    /// In space, if friction or an edge needs them: axes fixed in the second body, either two along the plane, or
+    /// three.
     tangents: Vec<Vec3<'g>>,
 }
 
 impl<'g> Touch<'g> {
-    /// The one tangent of the plane x–z.
+    /// The one tangent in the plane x–z.
     fn planar_tangent(&self) -> Vec3<'g> {
         planar_tangent(self.normal)
     }
 
-    /// Sliding velocity, in the tangent plane.
+    /// Sliding velocity: the part of the relative velocity in the tangent plane.
     fn slip(&self) -> Vec3<'g> {
         self.velocity + self.approach * self.normal
     }
@@ -87,7 +89,7 @@ impl Equations for Contact {
     }
 }
 
-/// Applies a contact: the normal force, what an edge takes from it, friction, what a fading edge pushes with.
+/// Applies a contact: the normal force, reduced at an edge; friction; and the push of a fading edge.
 // Long: the parts of the force in the order in which their nodes are made; each needs those before it.
 fn apply<'g>(
     contact: &Contact,
@@ -126,7 +128,7 @@ fn apply<'g>(
     let weight = extent.map(|extent| edge::weight(extent, &touch.place));
     if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
-        // beyond the edge there is nothing, also where a curve has no value
+        // beyond the edge there is no force, not even NaN where a curve has no value
         if applied.may_end(contact) {
             let zero = graph.constant(0.0);
             pressure = choose(zero, weight.weight, pressure, zero);
@@ -198,7 +200,7 @@ fn apply<'g>(
     }
 }
 
-/// Applies what a fading edge pushes with, and returns the force on the first body.
+/// Applies the push of a fading edge, and returns the force on the first body.
 fn push_of_edge<'g>(
     contact: &Contact,
     applied: &mut AppliedForces<'g>,
@@ -217,7 +219,7 @@ fn push_of_edge<'g>(
     push.force
 }
 
-/// Tells when a contact begins to act, and of the corners of its curves.
+/// Adds the event of the beginning of a contact, and the corners of its curves.
 pub(crate) fn begins<'g>(
     applied: &mut AppliedForces<'g>,
     owner: &str,
@@ -254,19 +256,19 @@ pub(crate) fn begins<'g>(
     });
 }
 
-/// What penetration does.
+/// The results of the penetration.
 struct Pressed<'g> {
     /// Normal force \[N\].
     force: Expr<'g>,
-    /// The elastic part of it while the bodies touch \[N\].
+    /// Elastic part of the normal force while the bodies touch, otherwise 0 \[N\].
     elastic: Expr<'g>,
-    /// Energy that can be had back \[J\], where an edge asks for it.
+    /// Energy that unloading gives back \[J\]; 0 unless a fading edge needs it.
     stored: Expr<'g>,
-    /// Penetration at which unloading would end \[m\].
+    /// Penetration at which the force would vanish in unloading \[m\].
     permanent_set: Expr<'g>,
 }
 
-/// The normal force, before an edge takes from it.
+/// The normal force, before the weight of an edge is applied.
 fn pressed<'g>(
     graph: &'g Graph,
     applied: &mut AppliedForces<'g>,
@@ -276,7 +278,7 @@ fn pressed<'g>(
     touch: &Touch<'g>,
 ) -> Pressed<'g> {
     let (zero, penetration, approach) = (graph.constant(0.0), touch.penetration, touch.approach);
-    // what is remembered must be finite, and a curve need not be defined while apart
+    // the memory of a hysteresis must be finite, and a curve need not have a value while the bodies are apart
     let depth = match contact.hysteresis {
         Some(_) => penetration.max(zero),
         None => penetration,
@@ -304,7 +306,7 @@ fn pressed<'g>(
         &[penetration, elastic, viscous],
     );
     if contact.damping.is_some() {
-        // the force ends while still penetrated where damping would pull
+        // where damping would pull, the force ends while the bodies still overlap
         applied.kink(format!("{owner}: pushes"), move || {
             choose(zero, penetration, elastic + viscous, penetration)
         });
@@ -322,7 +324,7 @@ fn pressed<'g>(
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,
         (None, _) => zero,
-        // down the line, whose slope is s, without a curve below it
+        // the energy under the unloading line of slope s; no unloading curve lies below it here
         (Some(_), Some(law)) => elastic.squared() / (2.0 * number(graph, &law.slope)),
         (Some(c), None) => derivative(graph, c, Function::CurveIntegral, penetration.max(zero)),
     };

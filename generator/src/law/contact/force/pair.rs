@@ -1,8 +1,9 @@
-//! The touch of two ellipsoids: along the direction n in which they overlap least.
+//! The touch of two ellipsoids: in the direction n in which they overlap least.
 //!
-//! δ(n) = h₁(n) + h₂(n) − n·(c₂ − c₁), smallest over unit vectors n (`force::approach`; two spheres overlap least along the line of
-//! their centres). Forces ask for it where the bodies touch alone, distances and kinks always. The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, then lie δ n apart, and forces act half
-//! way between them. As δ is smallest, its rate knows nothing of that of n: δ̇ = n·(v₁ − v₂), at either point and between.
+//! δ is the smallest value of δ(n) = h₁(n) + h₂(n) − n·(c₂ − c₁) over unit vectors n (`force::approach`; for two
+//! spheres, n is along the line of their centres). Forces need δ only while the bodies touch, distances and kinks
+//! always. The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, lie δ n apart, and forces act half-way between them. As δ
+//! is a minimum, its rate does not depend on that of n: δ̇ = n·(v₁ − v₂), taken at either point or between them.
 
 use super::{Motion, Touch, choose};
 use crate::dynamics::kinematics::constant_rotation;
@@ -11,17 +12,17 @@ use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{ApproachCall, Expr, Function, Graph};
 use crate::model::{Attachment, Contact, Dimension, Ellipsoid, Number};
 
-/// Squared distance of two centres below which their line is taken at this distance \[m²\].
+/// Least squared distance of two centres \[m²\]. If they are closer, the line between them is divided by this distance.
 const SMALLEST_SQUARED_DISTANCE: f64 = 1e-20;
 
 /// An ellipsoid in absolute axes.
 struct Body<'g> {
     centre: Vec3<'g>,
-    /// From the joint of its body.
+    /// Vector from the joint of the body to the centre.
     offset: Vec3<'g>,
-    /// Of a sphere.
+    /// Radius, if the ellipsoid is a sphere.
     radius: Option<Expr<'g>>,
-    /// Q = R diag(a²) Rᵀ by xx, yy, zz, yz, xz, xy \[m²\].
+    /// Entries xx, yy, zz, yz, xz, xy of Q = R diag(a²) Rᵀ \[m²\].
     quadric: [Expr<'g>; 6],
 }
 
@@ -87,7 +88,7 @@ pub fn on_ellipsoid<'g>(
     }
 }
 
-/// The components of a normal, 0 where the centres coincide: every direction would do there, or the opposite one as well.
+/// The components of the normal; 0 where the centres coincide, as any direction, or its opposite, would do there.
 pub fn direction<'g>(
     dimension: Dimension,
     normal: Vec3<'g>,
@@ -155,15 +156,15 @@ impl<'g> Body<'g> {
     }
 }
 
-/// Where two bodies are nearest.
+/// The place where two bodies overlap most, or are nearest.
 struct Meeting<'g> {
     /// n
     direction: Vec3<'g>,
-    /// δ, or something negative where they do not touch.
+    /// δ if the bodies touch, otherwise any negative number.
     penetration: Expr<'g>,
     /// δ
     overlap: Expr<'g>,
-    /// From the centre of the first to the middle between the deepest points.
+    /// Vector from the centre of the first body to the middle between the deepest points.
     from_centre: Vec3<'g>,
 }
 

@@ -1,8 +1,9 @@
-//! How far an ellipsoid reaches, and where.
+//! The reach of an ellipsoid in a direction, and its deepest point.
 //!
-//! With the direction n seen in the ellipsoid's axes as n' and the semi-axes a: h = √(Σ a_i² n'_i²), and the vector from the
-//! deepest point to the centre is u = R (a_i² n'_i)/h = ∂h/∂n. It turns with n by K = ∂²h/∂n² = (A − u uᵀ)/h, A = R diag(a²) Rᵀ.
-//! Of another degree than 2, h is the norm dual to that of the ellipsoid's equation: `force::ellipsoid::support`.
+//! Let n' be the direction n in the ellipsoid's axes, and a the semi-axes. Then h = √(Σ a_i² n'_i²), and the vector
+//! from the deepest point to the centre is u = R (a_i² n'_i)/h = ∂h/∂n. It turns with n by K = ∂²h/∂n² = (A − u uᵀ)/h,
+//! A = R diag(a²) Rᵀ. For a degree other than 2, h is the dual norm of the ellipsoid's equation:
+//! `force::ellipsoid::support`.
 
 use super::Motion;
 use crate::dynamics::kinematics::constant_rotation;
@@ -15,12 +16,12 @@ use crate::model::{Contact, Dimension};
 pub struct Support<'g> {
     /// h \[m\]
     pub reach: Expr<'g>,
-    /// u, from the deepest point to the centre, absolute axes \[m\].
+    /// u, the vector from the deepest point to the centre, in absolute axes \[m\].
     pub deepest: Vec3<'g>,
-    /// Of another degree than 2: the local components of the direction, of which one is 0 in the middle of a flat side,
+    /// For a degree other than 2: the local components of the direction. One of them is 0 in the middle of a flat side,
     /// where the deepest point moves infinitely fast.
     pub flats: Vec<Expr<'g>>,
-    /// What is not a sphere, and of degree 2: nobody asks how the others turn.
+    /// Shape of an ellipsoid of degree 2; `None` for a sphere, and for other degrees, whose turning is not needed.
     shape: Option<Shape<'g>>,
 }
 
@@ -46,7 +47,7 @@ impl<'g> Support<'g> {
         };
         let round = used.iter().all(|&i| semi_axes[i].id() == semi_axes[0].id());
         if round && contact.degree == 2 {
-            // a sphere reaches equally far to all sides
+            // a sphere reaches equally far in all directions
             return Support {
                 reach: semi_axes[0],
                 deepest: semi_axes[0] * normal,
@@ -66,7 +67,7 @@ impl<'g> Support<'g> {
                 graph.call(Function::Support(part as u8), &[x, y, z, power])
             });
             let point = Vec3(std::array::from_fn(|i| {
-                // in the plane nothing lies beside it
+                // in the plane the deepest point has no component along y
                 match used.contains(&i) {
                     true => semi_axes[i] * results[i + 1],
                     false => graph.constant(0.0),
@@ -93,8 +94,8 @@ impl<'g> Support<'g> {
         }
     }
 
-    /// m = u × t − n × K t: by −m·ω the deepest point moves along t where the ellipsoid turns about its centre, n and t
-    /// being held.
+    /// m = u × t − n × K t: if the ellipsoid turns about its centre at ω, with n and t held, the deepest point moves
+    /// along t at −m·ω.
     pub fn turning(&self, normal: Vec3<'g>, tangent: Vec3<'g>) -> Vec3<'g> {
         let Some(shape) = &self.shape else {
             return Vec3::zero(self.reach.graph());

@@ -1,23 +1,24 @@
-//! Flexion and torsion of a ball joint: how far the long axes of its two bodies part, and how far one turns about them.
+//! Flexion and torsion of a ball joint: the angle between the long axes of its two bodies, and the twist about them.
 //!
-//! e, c: the long axes of parent and child, absolute; ω = ω_child − ω_parent
+//! e, c: the long axes of parent and child in absolute axes; ω = ω_child − ω_parent
 //!
 //! | | angle | its rate | where |
 //! |---|---|---|---|
 //! | flexion | β = angle(e, c) ∈ \[0, π\] | n · ω | n = (e × c)/sin β |
 //! | torsion | τ, the twist of A_parentᵀ A_child = swing · twist | t · ω | t = (e + c)/(1 + e·c) |
 //!
-//! n and t are proven by the three turns that span all: about n the swing grows and the twist stays, n·n = 1, t·n = 0; about c
-//! the twist is multiplied from the right and the swing stays, n·c = 0, t·c = 1; about e the whole turns, swing and all, about
-//! e, which is a turn of the plane of bending and of the twist by the same angle, n·e = 0, t·e = 1. A moment −f(β) n − g(τ) t
-//! therefore does the work −f β̇ − g τ̇, and stores ∫f + ∫g.
+//! To verify n and t, consider three turns that together span all others. A turn about n increases the swing and leaves
+//! the twist: n·n = 1, t·n = 0. A turn about c multiplies the twist from the right and leaves the swing: n·c = 0,
+//! t·c = 1. A turn about e rotates the plane of bending and increases the twist, both by the same angle: n·e = 0,
+//! t·e = 1. A moment −f(β) n − g(τ) t therefore has the power −f β̇ − g τ̇, and stores ∫f + ∫g.
 //!
-//! Damping and friction of flexion resist the swinging of the long axis c, seen from the parent: c turns with ċ = ω × c, which is the angular
-//! velocity w = c × ċ = ω − (c·ω) c. It has the component β̇ along n, and another one where the plane of bending turns; of a body that
-//! spins about its own long axis it is 0. The moments −d w and −F w/max(|w|, tolerance) resist it as a whole: their power is −d w² and
-//! −F w²/max(|w|, tolerance), as w·ω = w². So they pass smoothly through β = 0 and β = π, where n has no direction; an elastic torque
-//! that is 0 there does so by itself. At β = π the twist is not defined, nor is the plane of bending: sin β and 1 + e·c are kept from
-//! 0, so that moments stay finite, and a run that goes through it says so by the [bearing].
+//! Damping and friction of flexion resist the swinging of the long axis c, seen from the parent: c moves at ċ = ω × c,
+//! which is the angular velocity w = c × ċ = ω − (c·ω) c. Its component along n is β̇; it has another one if the plane
+//! of bending turns; for a body that spins about its own long axis it is 0. The moments −d w and −F w/max(|w|,
+//! tolerance) have the power −d w² and −F w²/max(|w|, tolerance), as w·ω = w². So they pass smoothly through β = 0 and
+//! β = π, where n has no direction; so does an elastic torque that is 0 there. At β = π neither the twist nor the plane
+//! of bending is defined: sin β and 1 + e·c are bounded from below, so that moments stay finite, and a run that passes
+//! through β = π reports it by means of the [bearing].
 
 use super::{Rotation, elastic_torque, stop, stop_kinks};
 use crate::dynamics::force::switch::Gate;
@@ -30,26 +31,26 @@ use crate::expression::{Expr, Function, Graph};
 use crate::law::joint::JointMeasures;
 use crate::model::JointTorque;
 
-/// Below this, sin² β is taken for it: the square of the rounding of a unit vector.
+/// Lower bound of sin² β: the square of the rounding error of a unit vector.
 const SMALLEST_SINE_SQUARED: f64 = 1e-32;
 
-/// Below this, 1 + cos β is taken for it.
+/// Lower bound of 1 + cos β.
 const SMALLEST_OPENING: f64 = 1e-12;
 
-/// A ball joint, bent and twisted.
+/// Flexion and torsion of a ball joint in one state.
 pub struct Bent<'g> {
     /// β, β̇ and n.
     pub bend: Rotation<'g>,
     /// τ, τ̇ and t.
     pub twist: Rotation<'g>,
-    /// Sine and cosine of τ, times the same factor.
+    /// Sine and cosine of τ, both times the same positive factor.
     pub of_twist: [Expr<'g>; 2],
     /// w \[rad/s\].
     swing: Vec3<'g>,
 }
 
 impl<'g> Bent<'g> {
-    /// The state of a joint between two bodies, whose long axes are both the local one of this index.
+    /// Flexion and torsion of the joint between two bodies. `axis` is the index of the long axis, the same in both.
     pub fn of(
         graph: &'g Graph,
         inboard: &ElementMotion<'g>,
@@ -73,7 +74,8 @@ impl<'g> Bent<'g> {
             unit: "rad",
         };
 
-        // the quaternion (w, …) of A_parentᵀ A_child: tan τ = 2 w z/(w² − z²), both from its matrix, times 2
+        // with the quaternion (w, …) of A_parentᵀ A_child, tan τ = 2 w z/(w² − z²); numerator and denominator are
+        // computed from the matrix, times 2
         let [j, k] = [(axis + 1) % 3, (axis + 2) % 3];
         let entry = |row: usize, column: usize| {
             inboard
@@ -99,7 +101,7 @@ impl<'g> Bent<'g> {
         }
     }
 
-    /// The moment of flexion on the child, and what can be asked of it; its torque is the component along n.
+    /// The moment of flexion on the child, and its measures. The torque among these is the component along n.
     pub fn flexion(
         &self,
         graph: &'g Graph,
@@ -173,8 +175,9 @@ impl<'g> Bent<'g> {
     }
 }
 
-/// To which side the child is bent, seen along the long axis of the parent, whose local index is `axis` \[rad\]; [`NO_BEARING`] where it is
-/// bent by less than 90°. It leaps by half a turn where the flexion goes through 180°.
+/// The direction to which the child is bent, as an angle about the long axis of the parent, whose local index is `axis`
+/// \[rad\]; [`NO_BEARING`] if it is bent by less than 90°. The angle jumps by half a turn when the flexion passes
+/// through 180°.
 pub fn bearing<'g>(
     graph: &'g Graph,
     inboard: Mat3<'g>,

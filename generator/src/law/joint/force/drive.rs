@@ -1,9 +1,10 @@
-//! What drives a joint about one coordinate: a torque given over time, or a spring and a damper to a coordinate that is given.
+//! Motors and drives of one coordinate of a joint: a torque that is given over time, or a spring and a damper to a
+//! given coordinate.
 //!
 //! | | Q |
 //! |---|---|
 //! | motor | M(t) |
-//! | drive | k (c(t) − θ) + d (ċ(t) − θ̇), kept within ± the limit |
+//! | drive | k (c(t) − θ) + d (ċ(t) − θ̇), limited to ± the largest torque |
 
 use super::Rotation;
 use crate::dynamics::force::AppliedForces;
@@ -46,6 +47,6 @@ pub fn drive<'g>(
         format!("{owner}: drives with its largest torque"),
         move || torque.max(-torque) - limit,
     );
-    // in this order of operands a NaN is passed on
+    // with the operands in this order, a NaN stays a NaN
     torque.max(-limit).min(limit)
 }

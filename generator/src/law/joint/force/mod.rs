@@ -2,19 +2,22 @@
 //!
 //! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + friction + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i) + motor(t) + drive(t, θ_i, θ̇_i)
 //!
-//! In the plane θ = φ_child − φ_parent and the moment is Q e_y. In space θ are the Bryant angles of A_parentᵀ A_child with
-//! axes e₁ = x of the parent, e₃ = z of the child, e₂ along e₃ × e₁. They are not orthogonal: the moment that does the work
-//! Q·θ̇, and so stores what the elastic curves store, is
+//! In the plane θ = φ_child − φ_parent, and the moment is Q e_y. In space θ_i are the Bryant angles of A_parentᵀ
+//! A_child, about the axes e₁ = x of the parent, e₃ = z of the child, and e₂ along e₃ × e₁. These axes are not
+//! orthogonal. The moment that does the work Q·θ̇, and so stores the energy of the elastic curves, is
 //!
 //! M = Σ Q_i n_i,   n₂ = (e₃ × e₁)/c,   n₁ = (e₁ − s e₃)/c²,   n₃ = (e₃ − s e₁)/c²,   s = sin θ₂ = e₁·e₃,   c² = 1 − s²
 //!
-//! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is kept ≥ 1e-12, so
-//! that forces stay finite there, and a run that goes through it says so by the [bearing](bryant_bearing). Another [Order] of the turns is
-//! the same in other axes (a, b, ±c), right-handed: the angle about −c is that about c with the opposite sign, and so is its n. [Flexion and torsion](bending) are two more such coordinates, in space.
+//! and by the same vectors θ̇_i = n_i · (ω_child − ω_parent). At θ₂ = ±90° the angles are undefined; c² is
+//! kept ≥ 1e-12, so that forces stay finite there, and a run that passes through it reports so by means of the
+//! [bearing](bryant_bearing). For another [Order] of the turns the same holds in right-handed axes (a, b, ±c): the
+//! angle about −c is the angle about c with the opposite sign, and so is its n. [Flexion and torsion](bending) are two
+//! more such coordinates, in space.
 //!
-//! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back; a lock pulls with −k (θ − θ_l) − d θ̇ to the
-//! angle θ_l that there was when its switch began to act, which is remembered. [Friction](sticking), [motors and drives](drive), and
-//! [the hysteresis](crate::dynamics::force::hysteresis) of elastic curves stand in files of their own.
+//! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back. A lock pulls with −k (θ − θ_l) −
+//! d θ̇ to the angle θ_l, which is remembered from the moment when its switch began to act. [Friction](sticking),
+//! [motors and drives](drive), and [the hysteresis](crate::dynamics::force::hysteresis) of elastic curves have files of
+//! their own.
 
 mod bending;
 mod drive;
@@ -38,13 +41,13 @@ use crate::model::{
     ScaledCurve, Stop,
 };
 
-/// Below this, cos² θ₂ is taken for it.
+/// Lower bound of cos² θ₂.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
 
-/// cos² θ₂ below which the bearing of Bryant angles is looked at: 60°.
+/// cos² θ₂ below which the bearing of Bryant angles is watched: beyond 60°.
 const NEAR: f64 = 0.25;
 
-/// One relative rotation: its angle, its rate, and the moment that does work on it alone.
+/// One relative rotation: its angle, its rate, and the direction of the moment that does work on it alone.
 #[derive(Clone, Copy)]
 pub struct Rotation<'g> {
     /// θ \[rad\].
@@ -53,7 +56,7 @@ pub struct Rotation<'g> {
     pub rate: Expr<'g>,
     /// n, by which θ̇ = n · (ω_child − ω_parent).
     pub direction: Vec3<'g>,
-    /// Unit of the angle; m where a freedom slides.
+    /// Unit of the angle; "m" for a freedom that slides.
     pub unit: &'static str,
 }
 
@@ -78,7 +81,8 @@ impl Equations for Freedom {
     }
 }
 
-/// Measures: of the three rotations, of flexion, of torsion, where there is a law or somebody looks.
+/// Applies the laws of a joint. Returns the measures of the three rotations, of flexion and of torsion, for each that
+/// has a law or is observed.
 fn apply<'g>(
     joint: &Joint,
     setting: Setting<'_, 'g>,
@@ -164,7 +168,8 @@ fn apply<'g>(
     measures
 }
 
-/// Tells where the first or the last angle of the order, or the torsion, goes through ±180° although a torque depends on it.
+/// Watches the first and the last angle of the order, and the torsion, for passing through ±180°, if a torque depends
+/// on the angle.
 fn watch_half_turns<'g>(joint: &Joint, setting: Setting<'_, 'g>, applied: &mut AppliedForces<'g>) {
     let Setting {
         graph,
@@ -199,8 +204,9 @@ fn watch_half_turns<'g>(joint: &Joint, setting: Setting<'_, 'g>, applied: &mut A
     }
 }
 
-/// Whether laws about x, y and z mean something else behind θ₂ = ±90°. There n₂ turns round, but the moment −d (n₂·ω) n₂ of damping about the
-/// middle axis, or of friction that does not hold, is the same for n₂ and −n₂.
+/// True if the laws about x, y and z have a different meaning beyond θ₂ = ±90°. There n₂ reverses its direction; but
+/// the moment −d (n₂·ω) n₂ of damping about the middle axis, or of friction without a bristle, is the same for n₂ and
+/// −n₂.
 fn needs_angles(about: &[JointTorque; 3], order: Order) -> bool {
     let [x, y, z] = order.0.map(|axis| &about[axis]);
     let none = JointTorque::default();
@@ -213,7 +219,8 @@ fn needs_angles(about: &[JointTorque; 3], order: Order) -> bool {
     *x != none || *z != none || *y != resists
 }
 
-/// The law of one freedom of a joint, on its own coordinate: Q as of a relative rotation, in \[N\] where it slides.
+/// Applies the law of one freedom of a joint to its own coordinate: Q as for a relative rotation, in \[N\] if the
+/// freedom slides.
 fn apply_to_freedom<'g>(
     law: &Freedom,
     setting: Setting<'_, 'g>,
@@ -253,7 +260,7 @@ fn apply_to_freedom<'g>(
     measured
 }
 
-/// Whether an output or a switch looks at a rotation of a joint.
+/// True if an output or a switch reads a rotation of a joint.
 fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     let outputs = model.outputs.iter();
     let outputs = outputs.flat_map(|output| output.quantity.leaves());
@@ -267,8 +274,8 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     })
 }
 
-/// Q of one relative rotation, and what can be asked of it, its powers counted by term; the names are that of the effects and that of memory and
-/// kinks.
+/// The measures of one relative rotation, with its torque Q; adds the power of each term. `owner` is the name for the
+/// powers, `memory` that for memory and kinks.
 fn apply_torques<'g>(
     graph: &'g Graph,
     applied: &mut AppliedForces<'g>,
@@ -297,7 +304,7 @@ fn apply_torques<'g>(
     }
 }
 
-/// What carries an element: its parent, a vehicle, or the absolute frame.
+/// The body that carries an element: its parent, a vehicle, or the absolute frame.
 pub fn parent(model: &Model, child: ElementId) -> Body {
     let system = &model.systems[child.system];
     match (system.elements[child.element].parent, &system.reference) {
@@ -310,7 +317,7 @@ pub fn parent(model: &Model, child: ElementId) -> Body {
     }
 }
 
-/// The terms of Q of one relative rotation, by name, and the sets of its hysteresis.
+/// The terms of Q of one relative rotation, each with its name, and the permanent sets of its hysteresis.
 fn torques<'g>(
     graph: &'g Graph,
     applied: &mut AppliedForces<'g>,
@@ -359,7 +366,8 @@ fn torques<'g>(
     (torques, sets)
 }
 
-/// What an elastic curve resists with, the sets of its hysteresis, and whatever is to be told of it.
+/// The torque of an elastic curve (with the sign of the curve), and the permanent sets of its hysteresis; adds its
+/// events and kinks.
 #[expect(
     clippy::too_many_arguments,
     reason = "whose, what law, and where on it"
@@ -388,7 +396,7 @@ pub fn elastic_torque<'g>(
     }
 }
 
-/// What the ends of a rotation push back with.
+/// The torque of the ends of a rotation.
 pub fn stop<'g>(graph: &'g Graph, law: &Stop, angle: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
     let zero = graph.constant(0.0);
     let push = |beyond: Expr<'g>, rate: Expr<'g>| {
@@ -409,7 +417,7 @@ pub fn stop<'g>(graph: &'g Graph, law: &Stop, angle: Expr<'g>, rate: Expr<'g>) -
     below - above
 }
 
-/// What a stop that has been passed by `beyond` pushes back with, or where damping is larger, pulls.
+/// The push of a stop that has been passed by `beyond`; negative (a pull) where damping exceeds the elastic part.
 fn behind<'g>(graph: &'g Graph, law: &Stop, beyond: Expr<'g>, rate: Expr<'g>) -> Expr<'g> {
     let zero = graph.constant(0.0);
     let depth = beyond.max(zero);
@@ -419,13 +427,13 @@ fn behind<'g>(graph: &'g Graph, law: &Stop, beyond: Expr<'g>, rate: Expr<'g>) ->
         (Some(damping), fade @ Some(_)) => {
             number(graph, damping) * faded(graph, depth, fade.as_ref()) * rate
         }
-        // at once, but not before
+        // damping has its full size at once, but only behind the stop
         (Some(damping), None) => choose(zero, beyond, number(graph, damping) * rate, zero),
     };
     elastic + viscous
 }
 
-/// Tells where a stop begins and ends to push, and from where on its damping is full.
+/// Adds the places where a stop begins and ends to push, and where its damping reaches its full size.
 pub fn stop_kinks<'g>(
     graph: &'g Graph,
     applied: &mut AppliedForces<'g>,
@@ -487,7 +495,7 @@ fn lock<'g>(
     switch.once(-torque, zero)
 }
 
-/// θ, θ̇ and the direction e_y.
+/// Angle θ and rate θ̇ of the rotation in the plane; its direction is e_y.
 pub fn in_plane<'g>(
     graph: &'g Graph,
     motion: &Motion<'g>,
@@ -505,7 +513,7 @@ pub fn in_plane<'g>(
     }
 }
 
-/// θ_i, θ̇_i and n_i of the turn about the axis i, of turns in an order.
+/// θ_i, θ̇_i and n_i of the turn about the axis i, where the turns have the given order.
 pub fn in_space<'g>(
     graph: &'g Graph,
     motion: &Motion<'g>,
@@ -528,14 +536,15 @@ pub fn in_space<'g>(
     }
 }
 
-/// The axes of a body in the order of the turns, the third one reversed where they would be left-handed.
+/// The axes of a body in the order of the turns; the third is reversed if they would be left-handed.
 fn ordered<'g>(axes: Mat3<'g>, order: Order) -> Mat3<'g> {
     let [first, middle, last] = order.0.map(|axis| axes.column(axis));
     let last = if order.hand() < 0.0 { -last } else { last };
     Mat3::from_columns([first, middle, last])
 }
 
-/// The first angle \[rad\] where the second is beyond ±60°, elsewhere [`NO_BEARING`]. It leaps by half a turn where the second angle goes through ±90°.
+/// The first angle \[rad\] while the second is beyond ±60°, otherwise [`NO_BEARING`]. The first angle jumps by half a
+/// turn when the second passes through ±90°.
 pub fn bryant_bearing<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2]) -> Expr<'g> {
     let sine = axes[0].column(0).dot(axes[1].column(2));
     let cosine_squared = graph.constant(1.0) - sine.squared();
@@ -544,7 +553,8 @@ pub fn bryant_bearing<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2]) -> Expr<'g> {
     choose(cosine_squared, graph.constant(NEAR), angle, none)
 }
 
-/// How far the first angle, i = 0, or the third, i = 2, is from ±180°, to one side or the other, as a sine; [`NO_BEARING`] where it is nearer to 0.
+/// The sine of the first angle (i = 0) or of the third (i = 2) while it is nearer to ±180° than to 0, otherwise
+/// [`NO_BEARING`]. The sine changes its sign at ±180°.
 pub fn bryant_half_turn<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2], i: usize) -> Expr<'g> {
     let [inboard, outboard] = axes;
     let along = |row: usize, column: usize| inboard.column(row).dot(outboard.column(column));
@@ -555,7 +565,7 @@ pub fn bryant_half_turn<'g>(graph: &'g Graph, axes: [&Mat3<'g>; 2], i: usize) ->
     half_turn(graph, sine, cosine)
 }
 
-/// The sine of an angle where its cosine is negative, elsewhere [`NO_BEARING`].
+/// The sine of an angle while its cosine is negative, otherwise [`NO_BEARING`].
 fn half_turn<'g>(graph: &'g Graph, sine: Expr<'g>, cosine: Expr<'g>) -> Expr<'g> {
     choose(
         cosine,
@@ -565,7 +575,7 @@ fn half_turn<'g>(graph: &'g Graph, sine: Expr<'g>, cosine: Expr<'g>) -> Expr<'g>
     )
 }
 
-/// Whether a torque depends on the angle, so that it jumps where that jumps from 180° to −180°.
+/// True if a torque depends on the angle, so that the torque jumps when the angle jumps from 180° to −180°.
 fn depends_on_angle(law: &JointTorque) -> bool {
     law.elastic.is_some() || law.stop.is_some() || law.lock.is_some() || law.drive.is_some()
 }

@@ -1,14 +1,15 @@
-//! Friction of a joint about one coordinate: Coulomb's, regularised by speed, or by a bristle that holds.
+//! Friction of a joint about one coordinate: Coulomb friction, regularised by speed or by a bristle that holds.
 //!
-//! **By speed.** Q = −M sat(θ̇/v_s): a function of the state alone, under which a joint creeps.
+//! **By speed.** Q = −M sat(θ̇/v_s): a function of the state alone; a joint that should stick creeps slowly.
 //!
-//! **By a bristle.** The law of [contacts](crate::law::contact::force), of one coordinate and under a given load: with the deflection z of the bristle,
+//! **By a bristle.** The law of [contacts](crate::law::contact::force) for one coordinate, under a given load: with the
+//! deflection z of the bristle,
 //!
 //! s = sat(z/z_b + θ̇/v_s),   Q = −M s,   ż = v_s (s − z/z_b)
 //!
-//! While |z/z_b + θ̇/v_s| ≤ 1 it sticks, and ż = θ̇ exactly: under a constant torque below M the joint comes to rest within z_b, and
-//! nothing creeps from there. Beyond, it slides under the whole M, and z follows s z_b; |z| ≤ z_b always. While the force waits for a switch the
-//! bristle straightens.
+//! While |z/z_b + θ̇/v_s| ≤ 1 the joint sticks, and ż = θ̇ exactly: under a constant torque below M the joint comes to
+//! rest within z_b, and does not creep. Beyond, it slides under the full torque M, and z follows s z_b; |z| ≤ z_b
+//! always. While the force waits for a switch, the bristle straightens.
 
 use super::Rotation;
 use crate::dynamics::force::AppliedForces;
@@ -38,7 +39,7 @@ pub fn friction<'g>(
     let (index, z) = applied.auxiliary(format!("{owner}: bristle"), unit, zero);
     let trial = z / deflection + rate / tolerance;
     applied.kink(slides, move || trial.max(-trial) - one);
-    // in this order of operands a NaN is passed on
+    // with the operands in this order, a NaN stays a NaN
     let share = trial.max(-one).min(one);
     applied.states.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
     -(limit * share)
