@@ -54,27 +54,33 @@ pub fn turned(curve: &Curve) -> Curve {
     }
 }
 
-/// The distances by which the loading curve `lower` lies above the unloading curve `upper`, at each kink of either from
+/// The distances by which the curve `loading` lies above the curve `unloading`, at each kink of either from
 /// 0 on: none may be negative.
-pub fn clearances(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
+pub fn clearances(
+    unloading: (&Curve, &ScaledCurve),
+    loading: (&Curve, &ScaledCurve),
+) -> Vec<Number> {
     let constant = |scaled: &ScaledCurve| scaled.stretch.constant().is_some();
-    if upper.1.stretch == lower.1.stretch || (constant(upper.1) && constant(lower.1)) {
+    if unloading.1.stretch == loading.1.stretch || (constant(unloading.1) && constant(loading.1)) {
         let difference = |[a, b]: [f64; 2]| {
-            let (of_loading, of_unloading) = (lower.1.times.clone(), upper.1.times.clone());
+            let (of_loading, of_unloading) = (loading.1.times.clone(), unloading.1.times.clone());
             Number::difference(
                 Number::product(a.into(), of_loading),
                 Number::product(b.into(), of_unloading),
             )
         };
-        return above(upper, lower).into_iter().map(difference).collect();
+        return above(unloading, loading)
+            .into_iter()
+            .map(difference)
+            .collect();
     }
-    stretched(upper, lower)
+    stretched(unloading, loading)
 }
 
 /// The same distances for curves whose stretches depend on different parameters, so that the order of their kinks may
 /// change.
-fn stretched(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<Number> {
-    let [u, f] = [upper, lower].map(|(curve, scaled)| (drawn(curve, 1.0), scaled));
+fn stretched(unloading: (&Curve, &ScaledCurve), loading: (&Curve, &ScaledCurve)) -> Vec<Number> {
+    let [u, f] = [unloading, loading].map(|(curve, scaled)| (drawn(curve, 1.0), scaled));
     let at = |(curve, scaled): &(Curve, &ScaledCurve), x: &Number| {
         let value = polygon(curve, Number::quotient(x.clone(), scaled.stretch.clone()));
         Number::product(scaled.times.clone(), value)
@@ -133,15 +139,15 @@ fn polygon(curve: &Curve, x: Number) -> Number {
     value
 }
 
-/// Pairs \[a, b\] that express that the unloading curve `upper` lies nowhere above the loading curve `lower` from 0 on:
+/// Pairs \[a, b\] that express that the curve `unloading` lies nowhere above the curve `loading` from 0 on:
 /// a · (times of loading) ≥ b · (times of unloading) for each pair. The stretches of the curves must be constants, or
 /// the same.
-fn above(upper: (&Curve, &ScaledCurve), lower: (&Curve, &ScaledCurve)) -> Vec<[f64; 2]> {
-    let stretches = [upper, lower].map(|(_, scaled)| scaled.stretch.constant());
+fn above(unloading: (&Curve, &ScaledCurve), loading: (&Curve, &ScaledCurve)) -> Vec<[f64; 2]> {
+    let stretches = [unloading, loading].map(|(_, scaled)| scaled.stretch.constant());
     // curves with the same stretch are compared without it
     let [u, f] = match stretches {
-        [Some(u), Some(f)] => [drawn(upper.0, u), drawn(lower.0, f)],
-        _ => [drawn(upper.0, 1.0), drawn(lower.0, 1.0)],
+        [Some(u), Some(f)] => [drawn(unloading.0, u), drawn(loading.0, f)],
+        _ => [drawn(unloading.0, 1.0), drawn(loading.0, 1.0)],
     };
     let size = |curve: &Curve| {
         let sizes = curve.points.iter().map(|point| point[1].abs());
