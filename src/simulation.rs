@@ -47,7 +47,7 @@ pub struct Recording {
     pub notes: Vec<String>,
     /// The smallest value of each event function, as in the header; empty if nothing ran.
     pub nearest: Vec<f64>,
-    /// Time of the computation, including the writing of machine code, without deriving, starting and printing.
+    /// Time of the computation, including the writing of machine code in the first run of an engine, without deriving, starting and printing.
     pub wall: Duration,
 }
 
