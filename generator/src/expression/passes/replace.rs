@@ -13,8 +13,9 @@ pub fn replace(
     roots: &[NodeId],
     by: &FxHashMap<NodeId, (Symbol, bool)>,
 ) -> Rewritten {
-    let mut copy = Copier::new(graph);
-    for id in needed(graph, roots, by) {
+    let needed = needed(graph, roots, by);
+    let mut copy = Copier::new(graph, needed.len());
+    for id in needed {
         if let Some(&(symbol, negative)) = by.get(&id) {
             let symbol = copy.graph().symbol(symbol).id();
             let new = if negative {
@@ -31,16 +32,20 @@ pub fn replace(
 }
 
 /// The graph with each of these inputs turned into a value of `other`, and with the nodes that compute it. The opposite of [`replace`].
-pub fn restore(rewritten: &Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
-    let Rewritten { graph, roots } = rewritten;
+pub fn restore(rewritten: Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
+    let Rewritten { graph, roots } = &rewritten;
     let live = Live::new(graph, roots);
     let value = |id: NodeId| match graph.node(id) {
         Node::Symbol(symbol) => by.get(&symbol).copied(),
         _ => None,
     };
     let values: Vec<NodeId> = live.nodes().iter().filter_map(|&id| value(id)).collect();
-    let mut copy = Copier::new(other);
-    for &id in Live::new(other, &values).nodes() {
+    if values.is_empty() {
+        return rewritten;
+    }
+    let needed = Live::new(other, &values);
+    let mut copy = Copier::new(other, needed.nodes().len() + live.nodes().len());
+    for &id in needed.nodes() {
         copy.keep(id);
     }
     let Rewritten {
@@ -69,9 +74,13 @@ pub fn needed(
     for root in roots {
         needed[root.0 as usize] = true;
     }
-    for id in (0..nodes.len() as u32).rev().map(NodeId) {
-        if needed[id.0 as usize] && !by.contains_key(&id) {
-            for operand in nodes[id.0 as usize].operands() {
+    let mut known = vec![false; nodes.len()];
+    for id in by.keys() {
+        known[id.0 as usize] = true;
+    }
+    for at in (0..nodes.len()).rev() {
+        if needed[at] && !known[at] {
+            for operand in nodes[at].operands() {
                 needed[operand.0 as usize] = true;
             }
         }
