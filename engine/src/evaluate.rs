@@ -196,7 +196,7 @@ mod tests {
     use crate::native::there;
     use bryant_generator::program::{Combination, Method};
     use bryant_generator::{Config, model};
-    use bryant_runtime::{Adjustable, Dynamics, Real};
+    use bryant_runtime::{Adjustable, Real};
     use std::ptr::from_ref;
     use std::sync::Barrier;
 

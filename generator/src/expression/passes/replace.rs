@@ -120,7 +120,7 @@ mod tests {
         let by = FxHashMap::from_iter([(known.id(), (stand_in, false))]);
         let without = replace(&graph, &[value.id()], &by);
         let by = FxHashMap::from_iter([(stand_in, known.id())]);
-        let again = restore(&without, &graph, &by);
+        let again = restore(without, &graph, &by);
         assert_eq!(again.graph.len(), graph.len());
         let Node::Add(product, quotient) = again.graph.node(again.roots[0]) else {
             panic!("it is a sum, of older terms first");
