@@ -18,8 +18,8 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub struct Codes<T> {
     methods: [OnceLock<Option<Code<T>>>; Method::ALL.len()],
     combined: [OnceLock<Option<Code<T>>>; Combination::ALL.len()],
-    /// Code of some of the outputs, and which ones: those that were wanted last.
-    outputs: Mutex<Option<(Box<[usize]>, Chosen<T>)>>,
+    /// Code of some of the outputs.
+    outputs: Mutex<Last<T>>,
 }
 
 /// The code of one list.
@@ -27,6 +27,9 @@ type Code<T> = Compiled<T, LibraryFunction>;
 
 /// The code of some of the outputs.
 type Chosen<T> = Arc<Option<Code<T>>>;
+
+/// The outputs that were wanted last, and their code.
+type Last<T> = Option<(Box<[usize]>, Chosen<T>)>;
 
 impl<T> Default for Codes<T> {
     fn default() -> Self {
