@@ -1,5 +1,6 @@
 //! Evaluates methods by machine code where possible, else by the interpreter.
 
+use crate::call::Library;
 use crate::execute::{Execute, Given};
 use crate::interpret::Interpreter;
 use crate::model::Shared;
@@ -7,73 +8,115 @@ use crate::native::{Call, Compiled, compile};
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Combination, List, Method};
 use bryant_runtime::Real;
-use std::cell::OnceCell;
-use std::sync::Arc;
+use std::cell::{OnceCell, RefCell};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Evaluates lists over one scalar. Numbers, and registers of several numbers, use machine code if the processor and
-/// the system allow it; other scalars use the interpreter. Both give the same bits.
+/// The machine code of a model over one scalar: of each list, once compiled; `None` where compilation was tried and there is no code.
 ///
-/// A method is compiled when it runs for the first time.
+/// A list is compiled when it runs for the first time. Its code depends on the scalar and the processor alone, so all runs of an engine share it.
+#[derive(Debug)]
+pub struct Codes<T> {
+    methods: [OnceLock<Option<Code<T>>>; Method::ALL.len()],
+    combined: [OnceLock<Option<Code<T>>>; Combination::ALL.len()],
+    /// Code of some of the outputs.
+    outputs: Mutex<Last<T>>,
+}
+
+/// The code of one list.
+type Code<T> = Compiled<T, LibraryFunction>;
+
+/// The code of some of the outputs.
+type Chosen<T> = Arc<Option<Code<T>>>;
+
+/// The outputs that were wanted last, and their code.
+type Last<T> = Option<(Box<[usize]>, Chosen<T>)>;
+
+impl<T> Default for Codes<T> {
+    fn default() -> Self {
+        Codes {
+            methods: [const { OnceLock::new() }; Method::ALL.len()],
+            combined: [const { OnceLock::new() }; Combination::ALL.len()],
+            outputs: Mutex::new(None),
+        }
+    }
+}
+
+impl<T: Real> Codes<T> {
+    fn method(&self, shared: &Shared, method: Method) -> Option<&Code<T>> {
+        let code = || code(shared, shared.lists.list(method));
+        self.methods[method as usize].get_or_init(code).as_ref()
+    }
+
+    fn combined(&self, shared: &Shared, combination: Combination) -> Option<&Code<T>> {
+        let code = || code(shared, shared.combined(combination));
+        self.combined[combination as usize]
+            .get_or_init(code)
+            .as_ref()
+    }
+
+    fn outputs(&self, shared: &Shared, wanted: &[usize]) -> Chosen<T> {
+        let mut last = self.outputs.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((outputs, code)) = &*last
+            && **outputs == *wanted
+        {
+            return code.clone();
+        }
+        let all = shared.combined(Combination::Outputs);
+        let results = wanted.iter().map(|index| all.results[*index]).collect();
+        let list = List {
+            results,
+            ..all.clone()
+        };
+        let code = Arc::new(code(shared, &list));
+        *last = Some((wanted.into(), code.clone()));
+        code
+    }
+}
+
+fn code<T: Real>(shared: &Shared, list: &List) -> Option<Code<T>> {
+    compile(list, &shared.lists.curves, |function| LibraryFunction {
+        library: shared.library.clone(),
+        function,
+    })
+}
+
+/// Evaluates lists over one scalar. Numbers and registers of numbers use machine code where the processor and the system allow it; everything
+/// else uses the interpreter. Both give the same bits.
 #[derive(Debug)]
 pub struct Evaluator<T: Real> {
     shared: Arc<Shared>,
     parameters: Vec<T>,
     derived: Vec<T>,
-    /// The machine code of each method, set when the method first runs; `None` if the method has to be interpreted.
-    compiled: [OnceCell<Option<Code<T>>>; Method::ALL.len()],
-    /// The machine code of each combination of methods, in the same form.
-    combined: [OnceCell<Option<Code<T>>>; Combination::ALL.len()],
-    /// The machine code of the wanted outputs, in the same form, if only some outputs are wanted.
-    outputs: OnceCell<Option<Code<T>>>,
-    /// The interpreter for methods without machine code.
+    codes: Arc<Codes<T>>,
+    /// The code of the wanted outputs, if only some are wanted.
+    outputs: OnceCell<Chosen<T>>,
+    /// Room for the values of code.
+    frame: RefCell<Vec<T>>,
+    /// The interpreter for methods without code.
     interpreter: OnceCell<Interpreter<T>>,
 }
-
-/// The machine code of one list.
-type Code<T> = Compiled<T, LibraryFunction>;
 
 impl<T: Real> Evaluator<T> {
     pub(crate) fn new(shared: Arc<Shared>) -> Self {
         Evaluator {
+            codes: shared.codes(),
             shared,
             parameters: Vec::new(),
             derived: Vec::new(),
-            compiled: [const { OnceCell::new() }; Method::ALL.len()],
-            combined: [const { OnceCell::new() }; Combination::ALL.len()],
             outputs: OnceCell::new(),
+            frame: RefCell::default(),
             interpreter: OnceCell::new(),
         }
     }
 
-    /// True if the method runs as machine code.
-    pub fn is_compiled(&self, method: Method) -> bool {
-        self.compiled(method).is_some()
-    }
-
-    /// Length of the machine code of a method in bytes, with its constants; `None` if the method is interpreted.
+    /// Length of the machine code of a method in bytes, with its constants; `None` where it is interpreted.
     pub fn bytes(&self, method: Method) -> Option<usize> {
-        self.compiled(method).map(Code::bytes)
+        self.codes.method(&self.shared, method).map(Code::bytes)
     }
 
-    fn compiled(&self, method: Method) -> Option<&Code<T>> {
-        let list = || self.shared.lists.list(method);
-        let compiled = self.compiled[method as usize].get_or_init(|| self.code(list()));
-        compiled.as_ref()
-    }
-
-    fn combined(&self, combination: Combination) -> Option<&Code<T>> {
-        let list = || self.shared.combined(combination);
-        let combined = self.combined[combination as usize].get_or_init(|| self.code(list()));
-        combined.as_ref()
-    }
-
-    fn code(&self, list: &List) -> Option<Code<T>> {
-        compile(list, &self.shared.lists.curves, |function| {
-            LibraryFunction {
-                shared: self.shared.clone(),
-                function,
-            }
-        })
+    fn run_code(&self, code: &Code<T>, given: Given<'_, T>, results: &mut [T]) {
+        let constants = (&self.parameters[..], &self.derived[..]);
+        code.run(given, constants, &self.frame, results);
     }
 
     fn interpreter(&self) -> &Interpreter<T> {
@@ -101,8 +144,8 @@ impl<T: Real> Execute<T> for Evaluator<T> {
 
     #[inline]
     fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]) {
-        match self.compiled(method) {
-            Some(code) => code.run(given, &self.parameters, &self.derived, results),
+        match self.codes.method(&self.shared, method) {
+            Some(code) => self.run_code(code, given, results),
             None => self.interpreter().run(method, given, results),
         }
     }
@@ -113,24 +156,18 @@ impl<T: Real> Execute<T> for Evaluator<T> {
         given: Given<'_, T>,
         results: &mut [T],
     ) -> bool {
-        let code = self.combined(combination);
+        let code = self.codes.combined(&self.shared, combination);
         if let Some(code) = code {
-            code.run(given, &self.parameters, &self.derived, results);
+            self.run_code(code, given, results);
         }
         code.is_some()
     }
 
     fn run_outputs(&self, wanted: &[usize], given: Given<'_, T>, results: &mut [T]) -> bool {
-        let code = self.outputs.get_or_init(|| {
-            let all = self.shared.combined(Combination::Outputs);
-            let results = wanted.iter().map(|index| all.results[*index]).collect();
-            self.code(&List {
-                results,
-                ..all.clone()
-            })
-        });
-        if let Some(code) = code {
-            code.run(given, &self.parameters, &self.derived, results);
+        let chosen = || self.codes.outputs(&self.shared, wanted);
+        let code = self.outputs.get_or_init(chosen);
+        if let Some(code) = &**code {
+            self.run_code(code, given, results);
         }
         code.is_some()
     }
@@ -144,12 +181,122 @@ impl<T: Real> Execute<T> for Evaluator<T> {
 #[derive(Debug)]
 #[allow(dead_code, reason = "machine code alone calls it")]
 struct LibraryFunction {
-    shared: Arc<Shared>,
+    library: Arc<Library>,
     function: Function,
 }
 
 impl<T: Real> Call<T> for LibraryFunction {
     fn call(&self, arguments: &[T], results: &mut [T]) {
-        self.shared.library.call(self.function, arguments, results);
+        self.library.call(self.function, arguments, results);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Codes, Evaluator};
+    use crate::Engine;
+    use crate::model::Evaluated;
+    use crate::native::there;
+    use bryant_generator::program::{Combination, Method};
+    use bryant_generator::{Config, model};
+    use bryant_runtime::{Adjustable, Real};
+    use std::ptr::from_ref;
+    use std::sync::Barrier;
+
+    const SWING: &str = "model: swing
+dimension: 2
+parameters: { k: 3 }
+systems:
+  - name: swing
+    reference: fixed
+    elements: [{ name: arm, mass: 2, cg: [0.3, 0], inertia: k * 0.1 }]
+forces: [{ field: gravity, acceleration: [0, -9.81] }]
+outputs:
+  - { name: angle, of: swing/arm, what: angle }
+  - { name: rate, of: swing/arm, what: angular_velocity }
+  - { name: rise, of: swing/arm, what: acceleration, component: z }
+run: { duration: 1 s, every: 10 ms }
+";
+
+    fn engine() -> Engine {
+        let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
+        let (model, _) = model::read_str("swing.yaml", SWING, &none).unwrap();
+        Engine::new(Config::new().lists(&model)).unwrap()
+    }
+
+    /// Addresses of the code of a derivative, of the event functions with what precedes them, and of these outputs.
+    fn addresses<T: Real>(evaluator: &Evaluator<T>, wanted: &[usize]) -> [Option<usize>; 3] {
+        let (codes, shared): (&Codes<T>, _) = (&evaluator.codes, &evaluator.shared);
+        let chosen = codes.outputs(shared, wanted);
+        [
+            codes.method(shared, Method::Derivative),
+            codes.combined(shared, Combination::EventFunctions),
+            (*chosen).as_ref(),
+        ]
+        .map(|code| code.map(|code| from_ref(code) as usize))
+    }
+
+    #[test]
+    fn all_runs_of_an_engine_have_the_same_code_and_each_scalar_its_own() {
+        let engine = engine();
+        let shared = || Evaluator::<f64>::new(engine.shared.clone());
+        let first = addresses(&shared(), &[0, 2]);
+        assert_eq!(first.map(|code| code.is_some()), [there::<f64>(); 3]);
+        let again = addresses(&shared(), &[0, 2]);
+        assert_eq!(again, first);
+        let elsewhere = std::thread::scope(|scope| {
+            let other = scope.spawn(|| addresses(&shared(), &[0, 2]));
+            other.join().unwrap()
+        });
+        assert_eq!(elsewhere, first);
+        // another scalar, and other outputs
+        let single = Evaluator::<f32>::new(engine.shared.clone());
+        let single = addresses(&single, &[0, 2]);
+        let fewer = addresses(&shared(), &[2]);
+        if there::<f64>() {
+            assert!(single.iter().zip(first).all(|(one, other)| *one != other));
+            assert_eq!(fewer[..2], first[..2]);
+            assert_ne!(fewer[2], first[2]);
+        }
+    }
+
+    #[test]
+    fn runs_beside_each_other_by_the_same_code_do_not_disturb_each_other() {
+        let engine = engine();
+        let info = engine.info();
+        let begin = Barrier::new(4);
+        // outputs of a model with this k, of which these are wanted, at many states
+        let outputs = |model: &mut dyn Adjustable<f64>, k: f64, wanted: &[usize]| {
+            model.set_parameters(&[k]);
+            model.want_outputs(wanted);
+            let mut all = Vec::new();
+            for i in 0..2000 {
+                let y = [0.01 * f64::from(i), k];
+                let mut outputs = vec![0.0; info.outputs.len()];
+                model.outputs(0.0, &y, &mut outputs);
+                let mut rate = [0.0; 2];
+                model.derivative(0.0, &y, &mut rate);
+                all.extend(wanted.iter().map(|&output| outputs[output]));
+                all.extend(rate);
+            }
+            all
+        };
+        std::thread::scope(|scope| {
+            for (k, wanted) in [
+                (1.0, vec![0, 2]),
+                (2.0, vec![1]),
+                (3.0, vec![2]),
+                (4.0, vec![0, 1, 2]),
+            ] {
+                let (engine, begin, outputs) = (&engine, &begin, &outputs);
+                scope.spawn(move || {
+                    begin.wait();
+                    let mut code: Evaluated<f64> = engine.over();
+                    let code = outputs(&mut code, k, &wanted);
+                    let interpreted = outputs(&mut engine.interpreted::<f64>(), k, &wanted);
+                    assert_eq!(code, interpreted);
+                });
+            }
+        });
     }
 }

@@ -1,7 +1,7 @@
 //! A model that is known only at run time, as the runtime's [`Dynamics`].
 
 use crate::call::Library;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Codes, Evaluator};
 use crate::execute::{Execute, Given};
 use crate::info;
 use crate::interpret::{Interpreter, Programs};
@@ -12,13 +12,15 @@ use bryant_generator::program::{Combination, List, Lists, Method, Operation, Sta
 use bryant_runtime::dynamics::{arrive, exchange};
 use bryant_runtime::real::Base;
 use bryant_runtime::{Adjustable, Arrival, Dynamics, Family, Info, Real, Schedule, Task};
+use std::any::{Any, TypeId};
 use std::cell::RefCell;
-use std::sync::{Arc, OnceLock};
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// A model for any scalar. It is made once from the lists of the model and shared by all threads.
 #[derive(Clone, Debug)]
 pub struct Engine {
-    shared: Arc<Shared>,
+    pub(crate) shared: Arc<Shared>,
 }
 
 /// The parts of a model that all scalars share.
@@ -26,11 +28,13 @@ pub struct Engine {
 pub(crate) struct Shared {
     pub info: &'static Info,
     pub lists: Lists,
-    pub library: Library,
-    /// The form for the interpreter, made when a method is interpreted for the first time.
+    pub library: Arc<Library>,
+    /// Made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
     /// Combinations of methods, each as one list, made when the combination is used for the first time.
     combined: [OnceLock<List>; Combination::ALL.len()],
+    /// The machine code over each scalar: [`Codes`].
+    codes: Mutex<HashMap<TypeId, Arc<dyn Any + Send + Sync>>>,
 }
 
 impl Shared {
@@ -43,6 +47,16 @@ impl Shared {
     pub fn combined(&self, combination: Combination) -> &List {
         let list = || self.lists.combined(combination);
         self.combined[combination as usize].get_or_init(list)
+    }
+
+    /// The machine code over a scalar, which all models over it share.
+    pub fn codes<T: Real>(&self) -> Arc<Codes<T>> {
+        let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
+        let made = codes
+            .entry(TypeId::of::<T>())
+            .or_insert_with(|| Arc::new(Codes::<T>::default()));
+        let made = Arc::clone(made).downcast();
+        made.unwrap_or_else(|_| unreachable!("the scalar is the key"))
     }
 }
 
@@ -105,9 +119,10 @@ impl Engine {
         Ok(Engine {
             shared: Arc::new(Shared {
                 info: info::info(&lists.facts),
-                library: Library::new(&lists.curves, users),
+                library: Arc::new(Library::new(&lists.curves, users)),
                 programs: OnceLock::new(),
                 combined: [const { OnceLock::new() }; Combination::ALL.len()],
+                codes: Mutex::default(),
                 lists,
             }),
         })

@@ -4,6 +4,7 @@ use crate::execute::Given;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{Curve, List};
 use bryant_runtime::Real;
+use std::cell::RefCell;
 use std::marker::PhantomData;
 
 /// A function that a list calls.
@@ -15,7 +16,7 @@ pub trait Call<T> {
 
 /// Machine code, which cannot exist here.
 #[derive(Debug)]
-pub struct Compiled<T, C>(std::convert::Infallible, PhantomData<(T, C)>);
+pub struct Compiled<T, C>(std::convert::Infallible, PhantomData<fn(T, C)>);
 
 impl<T: Real, C: Call<T>> Compiled<T, C> {
     /// Cannot be called.
@@ -23,8 +24,8 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
         match self.0 {}
     }
 
-    /// Cannot be called.
-    pub fn run(&self, _: Given<T>, _: &[T], _: &[T], _: &mut [T]) {
+    /// Never happens.
+    pub fn run(&self, _: Given<T>, _: (&[T], &[T]), _: &RefCell<Vec<T>>, _: &mut [T]) {
         match self.0 {}
     }
 }

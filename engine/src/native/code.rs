@@ -18,8 +18,9 @@ use bryant_generator::expression::Function;
 use bryant_generator::program::{Curve, List};
 use bryant_generator::target::machine::{Base, Callee, Code};
 use bryant_runtime::Real;
-use std::cell::Cell;
+use std::cell::RefCell;
 use std::ffi::c_void;
+use std::marker::PhantomData;
 
 /// A function, or its type, with the calling convention of machine code.
 #[cfg(target_arch = "x86_64")]
@@ -75,9 +76,13 @@ pub struct Compiled<T, C> {
     entries: Vec<Entry>,
     /// The functions that the entries point to.
     _called: Vec<Box<Called<C>>>,
-    /// The frame, while no evaluation uses it.
-    frame: Cell<Vec<T>>,
+    of: PhantomData<fn(T)>,
 }
+
+// SAFETY: the memory is never written again. The entries point to functions, which are code, and to `_called`, which moves with them.
+unsafe impl<T, C: Send> Send for Compiled<T, C> {}
+// SAFETY: as above. Evaluations of several threads share nothing that is written: each has a frame of its own.
+unsafe impl<T, C: Sync> Sync for Compiled<T, C> {}
 
 impl<T: Real, C: Call<T>> Compiled<T, C> {
     /// Compiles a list of a model with these curves. `function` gives the functions that the list calls, except sine,
@@ -123,7 +128,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             slots,
             entries,
             _called: called,
-            frame: Cell::new(Vec::new()),
+            of: PhantomData,
         })
     }
 
@@ -132,12 +137,18 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
         self.memory.len()
     }
 
-    /// Evaluates the list.
+    /// Evaluates the list. Values are kept in `room`, which is made as long as it has to be and may serve many lists.
     ///
     /// # Panics
     /// If a slice is too short.
     #[inline]
-    pub fn run(&self, given: Given<T>, parameters: &[T], derived: &[T], results: &mut [T]) {
+    pub fn run(
+        &self,
+        given: Given<T>,
+        (parameters, derived): (&[T], &[T]),
+        room: &RefCell<Vec<T>>,
+        results: &mut [T],
+    ) {
         let slots = |base: Base| self.slots[base as usize] as usize;
         let enough = given.state.len() >= slots(Base::State)
             && given.before.len() >= slots(Base::Accelerations)
@@ -146,8 +157,8 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
             && derived.len() >= slots(Base::Derived)
             && results.len() >= slots(Base::Results);
         assert!(enough, "a slice is shorter than the list needs");
-        // the frame is taken, because a called function may evaluate this list again and then needs another frame
-        let mut frame = self.frame.take();
+        // a called function may evaluate the list again, with another frame
+        let mut frame = room.take();
         if frame.len() < slots(Base::Frame) {
             frame.resize(slots(Base::Frame), T::from_f64(0.0));
         }
@@ -171,7 +182,7 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
                 std::mem::transmute(self.memory.as_ptr());
             function(&raw const pointers);
         }
-        self.frame.set(frame);
+        room.replace(frame);
     }
 }
 

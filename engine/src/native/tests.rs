@@ -10,6 +10,7 @@ use bryant_generator::target::machine::Callee;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width, with_width_of_singles};
 use bryant_runtime::real::{Array2, Array4, Array8};
 use bryant_runtime::{DoubleDouble, Dual, Real, Several, Width};
+use std::cell::RefCell;
 
 /// How to make a scalar from numbers, and how to read it.
 #[derive(Clone, Copy)]
@@ -101,7 +102,8 @@ fn run<T: Real, C: Call<T>>(code: &Compiled<T, C>, given: &Given<T>, results: &m
         state: &given.state,
         before: &given.accelerations,
     };
-    code.run(point, &given.parameters, &given.derived, results);
+    let constants = (&given.parameters[..], &given.derived[..]);
+    code.run(point, constants, &RefCell::default(), results);
 }
 
 /// Compares code with plain evaluation, and checks the memory around the results.
@@ -402,7 +404,6 @@ fn other_scalars_have_no_code() {
 fn a_list_may_be_evaluated_within_itself() {
     use bryant_generator::expression::UserCall;
     use bryant_generator::program::{Input, Operation, Value};
-    use std::cell::RefCell;
     use std::rc::{Rc, Weak};
 
     if target::<f64>().is_none() {
@@ -429,7 +430,10 @@ fn a_list_may_be_evaluated_within_itself() {
         results: vec![Value(2)],
     };
     /// c
-    struct Inner(Rc<RefCell<Weak<Compiled<f64, Inner>>>>);
+    struct Inner(Rc<RefCell<Weak<Outer>>>);
+
+    /// The code, and the frame that all its evaluations are given.
+    type Outer = (Compiled<f64, Inner>, RefCell<Vec<f64>>);
 
     impl Call<f64> for Inner {
         fn call(&self, arguments: &[f64], results: &mut [f64]) {
@@ -441,19 +445,22 @@ fn a_list_may_be_evaluated_within_itself() {
         }
     }
 
-    fn evaluate(code: &Compiled<f64, Inner>, state: f64) -> f64 {
+    fn evaluate((code, room): &Outer, state: f64) -> f64 {
         let point = Point {
             state: &[state],
             ..Point::nothing()
         };
         let mut results = [0.0];
-        code.run(point, &[], &[], &mut results);
+        code.run(point, (&[], &[]), room, &mut results);
         results[0]
     }
 
-    let code: Rc<RefCell<Weak<Compiled<f64, Inner>>>> = Rc::default();
+    let code: Rc<RefCell<Weak<Outer>>> = Rc::default();
     let inner = |_| Inner(Rc::clone(&code));
-    let outer = Rc::new(compile::<f64, _>(&list, &[], inner).unwrap());
+    let outer = Rc::new((
+        compile::<f64, _>(&list, &[], inner).unwrap(),
+        RefCell::default(),
+    ));
     *code.borrow_mut() = Rc::downgrade(&outer);
     assert_eq!(evaluate(&outer, 5.0), 120.0);
 }
@@ -467,7 +474,7 @@ fn slices_that_are_too_short_are_refused() {
         panic!("no slice is shorter where there is no code");
     };
     let results = &mut vec![0.0; list.results.len()];
-    code.run(Point::nothing(), &[], &[], results);
+    code.run(Point::nothing(), (&[], &[]), &RefCell::default(), results);
 }
 
 #[test]

@@ -77,7 +77,10 @@ impl Index {
     }
 
     fn grow(&mut self, nodes: &[Node]) {
-        let length = (2 * self.slots.len()).max(Self::SMALLEST);
+        self.lengthen((2 * self.slots.len()).max(Self::SMALLEST), nodes);
+    }
+
+    fn lengthen(&mut self, length: usize, nodes: &[Node]) {
         let before = std::mem::replace(&mut self.slots, vec![0; length]);
         for number in before.into_iter().filter(|number| *number != 0) {
             let mut at = hash(&nodes[number as usize - 1]) & (length - 1);
@@ -170,15 +173,19 @@ impl Graph {
         });
     }
 
-    /// An empty graph with the sections of another one.
-    pub(crate) fn with_sections_of(other: &Graph) -> Self {
+    /// An empty graph with the sections of another one, and with room for so many nodes.
+    pub(crate) fn with_sections_of(other: &Graph, nodes: usize) -> Self {
         let sections = other.inner.borrow().sections.clone();
         let current = sections.names.len().saturating_sub(1) as u32;
-        let inner = Inner {
+        let mut inner = Inner {
             sections,
             current,
+            nodes: Vec::with_capacity(nodes),
+            section_of: Vec::with_capacity(nodes),
             ..Inner::default()
         };
+        let slots = (2 * nodes + 2).next_power_of_two().max(Index::SMALLEST);
+        inner.index.lengthen(slots, &[]);
         Graph {
             inner: RefCell::new(inner),
         }
@@ -238,10 +245,14 @@ impl Graph {
         self.inner.borrow().names.get(&id).cloned()
     }
 
-    /// Whether a node has a name.
-    #[inline]
-    pub(crate) fn is_named(&self, id: NodeId) -> bool {
-        self.inner.borrow().names.contains_key(&id)
+    /// For each node, whether it has a name.
+    pub(crate) fn named(&self) -> Vec<bool> {
+        let inner = self.inner.borrow();
+        let mut named = vec![false; inner.nodes.len()];
+        for id in inner.names.keys() {
+            named[id.0 as usize] = true;
+        }
+        named
     }
 
     /// Number of nodes.

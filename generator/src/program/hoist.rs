@@ -43,6 +43,7 @@ pub(crate) fn found(
     }
     let mut carried: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let mut found = Vec::new();
+    let (sections, mut section) = (method.sections(), usize::MAX);
     for id in live
         .nodes()
         .iter()
@@ -55,7 +56,11 @@ pub(crate) fn found(
                 _ => equations.symbol(symbol).id(),
             },
             node => {
-                equations.section(method.sections()[method.section_of(id)].clone());
+                let of = method.section_of(id);
+                if of != section {
+                    section = of;
+                    equations.section(sections[of].clone());
+                }
                 equations
                     .intern(node.map_operands(|operand| carried[&operand]))
                     .id()

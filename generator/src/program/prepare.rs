@@ -241,14 +241,15 @@ pub(crate) fn finished(
     let finish = |Factored { alone, short }: Factored| (finish(alone), short.map(finish));
     let mut finished: Vec<(Rewritten, Option<Rewritten>)> =
         factored_before.into_iter().map(finish).collect();
-    let values = arguments.by.map(|by| {
+    let by = arguments.by.filter(|_| !arguments.nodes.is_empty());
+    let values = by.map(|by| {
         let (Rewritten { graph, roots }, _) = &mut finished[by];
         let values = roots.split_off(methods[by].roots.len());
         let stand_ins = arguments.stand_ins().map(|(_, stand_in)| stand_in);
         (graph.clone(), stand_ins.zip(values).collect())
     });
     let complete = |method: Rewritten| match &values {
-        Some((graph, values)) => restore(&method, graph, values),
+        Some((graph, values)) => restore(method, graph, values),
         None => method,
     };
     let chosen = finished.into_iter().map(|(alone, short)| {
@@ -268,7 +269,7 @@ fn on_all_processors<T: Sync, R: Send>(
     work: &(impl Fn(&Graph, &T) -> R + Sync),
 ) -> Vec<R> {
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    if workers == 1 || graph.len() < WORTH_A_THREAD {
+    if workers == 1 || tasks.len() < 2 || graph.len() < WORTH_A_THREAD {
         return tasks.iter().map(|task| work(graph, task)).collect();
     }
     let next = AtomicUsize::new(0);

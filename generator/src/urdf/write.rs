@@ -404,7 +404,8 @@ impl Writer<'_> {
     /// The meshes of all links of an element, which has the name of this link, or of all links at rest, each with its link.
     fn meshes(&self, element: Option<usize>, origin: Vector) -> Vec<(usize, String)> {
         let links = self.robot.links.iter().enumerate();
-        let of = links.filter(|(link, _)| self.carrier(*link) == Some(element));
+        let shown = links.filter(|(_, link)| !link.meshes.is_empty());
+        let of = shown.filter(|(link, _)| self.carrier(*link) == Some(element));
         let each = of.flat_map(|(link, of)| of.meshes.iter().map(move |mesh| (link, mesh)));
         let text = |(link, mesh): (usize, &Mesh)| {
             let placed = &self.forest.placed[link];

@@ -4,7 +4,7 @@
 use super::{AppliedForces, choose, onset};
 use crate::dynamics::numbers::{breakpoint_indicator, rate};
 use crate::equations;
-use crate::expression::passes::recall;
+use crate::expression::passes::Recall;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node};
 use crate::model::{Contact, Curve, Extrapolate, Model, ScaledCurve};
 
@@ -250,10 +250,11 @@ impl<'g> AppliedForces<'g> {
             _ => value.id(),
         };
         let mut kinks: Vec<(String, Expr<'g>)> = Vec::new();
+        let mut exact = Recall::new(graph, exact);
         for (name, expression) in &self.events.kinks {
             graph.section(format!("kink {name}"));
-            // a function whose root is searched for must be continuous, so it needs exact distances instead of bounds
-            let value = exact(expression());
+            // whose sign is looked for must be continuous: no bound in the place of a distance
+            let value = exact.expression(expression());
             let known = kinks
                 .iter()
                 .any(|(_, kink)| unsigned(*kink) == unsigned(value));
@@ -265,13 +266,13 @@ impl<'g> AppliedForces<'g> {
     }
 }
 
-/// The expression with exact distances of separate bodies instead of lower bounds of these distances.
-pub(super) fn exact(value: Expr<'_>) -> Expr<'_> {
-    recall(value, |function| match function {
+/// The same function, but with distances of bodies that do not touch in the place of what is at most these.
+pub(super) fn exact(function: Function) -> Function {
+    match function {
         Function::Approach(call) => Function::Approach(ApproachCall {
             early: false,
             ..call
         }),
         other => other,
-    })
+    }
 }

@@ -27,6 +27,7 @@ use super::switch::Gate;
 use super::{AppliedForces, ElementMotion, Motion};
 use crate::dynamics::kinematics::Point;
 use crate::dynamics::numbers::{breakpoint_indicator, number, rate, vector};
+use crate::expression::passes::Recall;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
@@ -129,12 +130,12 @@ impl<'g> AppliedForces<'g> {
     }
 
     fn made(graph: &'g Graph, onsets: &[Told<'g>]) -> Vec<(String, Onset<'g>)> {
+        let mut exact = Recall::new(graph, exact);
         let made = onsets.iter().map(|(name, onset)| {
             graph.section(format!("onset {name}"));
             let Onset { gap, speed } = onset();
-            // this gap is watched by its second derivative, too, which is meaningful for an exact distance but not for
-            // a bound
-            let gap = exact(gap);
+            // a second derivative says something of a distance alone, not of a bound of it
+            let gap = exact.expression(gap);
             (name.clone(), Onset { gap, speed })
         });
         // an onset that depends on parameters alone cannot begin during a run

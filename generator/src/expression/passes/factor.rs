@@ -28,14 +28,16 @@ const ROUNDS: usize = 6;
 /// The same roots with fewer operations.
 pub fn factor(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     let mut best = rebuild(graph, roots);
-    let mut least = costs(&best);
+    let mut live = Live::new(&best.graph, &best.roots);
+    let mut least = costs(&best.graph, &live);
     for _ in 0..ROUNDS {
-        let next = round(&best.graph, &best.roots);
-        let now = costs(&next);
+        let next = round(&best.graph, &live);
+        let next_live = Live::new(&next.graph, &next.roots);
+        let now = costs(&next.graph, &next_live);
         if now >= least {
             break;
         }
-        (best, least) = (next, now);
+        (best, live, least) = (next, next_live, now);
     }
     best
 }
@@ -46,27 +48,33 @@ pub fn cost(count: &Count) -> usize {
 }
 
 /// The cost of nodes that depend on more than parameters, then the cost of all nodes.
-fn costs(rewritten: &Rewritten) -> (usize, usize) {
-    let Rewritten { graph, roots } = rewritten;
-    let live = Live::new(graph, roots);
-    let varies = |id: &NodeId| !live.dependence(*id).within(Dependence::PARAMETERS);
-    let at_every_state: Vec<NodeId> = live.nodes().iter().copied().filter(varies).collect();
-    let of = |nodes: &[NodeId]| cost(&Count::of_nodes(graph, nodes));
-    (of(&at_every_state), of(live.nodes()))
+fn costs(graph: &Graph, live: &Live) -> (usize, usize) {
+    let nodes = graph.nodes();
+    let [mut at_every_state, mut once] = [Count::default(), Count::default()];
+    for &id in live.nodes() {
+        let count = match live.dependence(id).within(Dependence::PARAMETERS) {
+            true => &mut once,
+            false => &mut at_every_state,
+        };
+        count.record(&nodes[id.0 as usize]);
+    }
+    let (at_every_state, once) = (cost(&at_every_state), cost(&once));
+    (at_every_state, at_every_state + once)
 }
 
-fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
-    let live = Live::new(graph, roots);
-    let mut flat = flatten(graph, &live);
-    let mut lists = Lists::new(graph, &live);
+fn round(graph: &Graph, live: &Live) -> Rewritten {
+    let mut flat = flatten(graph, live);
+    let mut lists = Lists::new(graph, live);
     lists.add(extract_pairs(&mut flat.products, lists.next()), true);
     lists.add(extract_pairs(&mut flat.sums, lists.next()), false);
-    let divisions = divisions(graph, &live);
+    let divisions = divisions(graph, live);
+    let nodes = graph.nodes();
 
-    let mut copy = Copier::new(graph);
+    let mut copy = Copier::new(graph, live.nodes().len());
+    let mut factors = Vec::new();
     for &id in live.nodes() {
         let at = id.0 as usize;
-        let node = graph.node(id);
+        let node = nodes[at];
         copy.enter_section_of(id);
         let new = match flat.role[at] {
             Role::Term(_) => continue,
@@ -80,8 +88,9 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
             },
             Role::Product(index) => {
                 lists.make(&copy, &flat.products[index as usize]);
-                let factors = flat.products[index as usize].iter().map(|f| f.1).collect();
-                let product = lists.product(&copy, factors);
+                factors.clear();
+                factors.extend(flat.products[index as usize].iter().map(|f| f.1));
+                let product = lists.product(&copy, &mut factors);
                 signed(product, flat.negative[index as usize]).id()
             }
             Role::Sum(index) => {
@@ -91,7 +100,7 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
             Role::Other => {
                 let operand = |id| copied(&copy, id);
                 match node {
-                    Node::Div(a, b) if divisions[unsigned(&graph.nodes(), b).1.0 as usize] > 1 => {
+                    Node::Div(a, b) if divisions[unsigned(&nodes, b).1.0 as usize] > 1 => {
                         (operand(a) * operand(b).recip()).id()
                     }
                     _ => construct(copy.graph(), node, operand).id(),
@@ -100,7 +109,7 @@ fn round(graph: &Graph, roots: &[NodeId]) -> Rewritten {
         };
         copy.set(id, new);
     }
-    copy.finish(roots)
+    copy.finish(live.roots())
 }
 
 /// For each node, the number of quotients with the node or its negative as the denominator.
@@ -128,7 +137,40 @@ fn signed(value: Expr<'_>, negative: bool) -> Expr<'_> {
 /// A term of a sum: a product that only this sum uses, or a single operand.
 struct Term {
     negative: bool,
-    factors: Vec<Element>,
+    factors: Factors,
+}
+
+/// Factors of a term; most terms have one, and need no memory of their own.
+enum Factors {
+    One([Element; 1]),
+    Several(Vec<Element>),
+}
+
+impl Factors {
+    fn get(&self) -> &[Element] {
+        match self {
+            Factors::One(one) => one,
+            Factors::Several(several) => several,
+        }
+    }
+
+    fn get_mut(&mut self) -> &mut [Element] {
+        match self {
+            Factors::One(one) => one,
+            Factors::Several(several) => several,
+        }
+    }
+
+    fn remove(&mut self, factor: Element) {
+        if let Some(at) = self.get().iter().position(|&f| f == factor) {
+            match self {
+                Factors::One(_) => *self = Factors::Several(Vec::new()),
+                Factors::Several(several) => {
+                    several.swap_remove(at);
+                }
+            }
+        }
+    }
 }
 
 /// The lists while sums and products are put together again.
@@ -147,10 +189,11 @@ struct Lists {
 
 impl Lists {
     fn new(graph: &Graph, live: &Live) -> Self {
+        let nodes = graph.nodes();
         let varies = |id| !live.dependence(id).within(Dependence::PARAMETERS);
         let one = Node::Constant(1f64.to_bits());
-        let reciprocal = |id| match graph.node(id) {
-            Node::Div(a, d) if graph.node(a) == one && live.uses(id) == 1 => Some(d),
+        let reciprocal = |id: NodeId| match nodes[id.0 as usize] {
+            Node::Div(a, d) if nodes[a.0 as usize] == one && live.uses(id) == 1 => Some(d),
             _ => None,
         };
         let ids = || (0..graph.len() as Element).map(NodeId);
@@ -221,7 +264,7 @@ impl Lists {
         }
     }
 
-    fn product<'c>(&self, copy: &'c Copier<'_>, mut factors: Vec<Element>) -> Expr<'c> {
+    fn product<'c>(&self, copy: &'c Copier<'_>, factors: &mut [Element]) -> Expr<'c> {
         factors.sort_by_key(|&f| self.order[f as usize]);
         // A reciprocal with no other user becomes a quotient.
         let below = |f: &Element| self.reciprocal_of.get(*f as usize).copied().flatten();
@@ -243,12 +286,12 @@ impl Lists {
                     self.make(copy, factors);
                     Term {
                         negative: negative != flat.negative[index as usize],
-                        factors: factors.iter().map(|&(_, f)| f).collect(),
+                        factors: Factors::Several(factors.iter().map(|&(_, f)| f).collect()),
                     }
                 }
                 _ => Term {
                     negative,
-                    factors: vec![element],
+                    factors: Factors::One([element]),
                 },
             });
         }
@@ -263,14 +306,12 @@ impl Lists {
             let is_free = |at: &usize| terms[*at].is_some();
             let members: Vec<usize> = members.into_iter().filter(is_free).collect();
             let products = members.iter().flat_map(|&at| &terms[at]);
-            if products.filter(|t| t.factors.len() > 1).count() < 2 {
+            if products.filter(|t| t.factors.get().len() > 1).count() < 2 {
                 continue;
             }
             let mut inner: Vec<Term> = Vec::with_capacity(members.len());
             for mut term in members.into_iter().filter_map(|at| terms[at].take()) {
-                if let Some(at) = term.factors.iter().position(|&f| f == factor) {
-                    term.factors.swap_remove(at);
-                }
+                term.factors.remove(factor);
                 inner.push(term);
             }
             let places = inner.iter().map(|term| self.place(term));
@@ -279,9 +320,9 @@ impl Lists {
             let value = self.value(copy, factor) * self.sum(copy, inner);
             parts.push((place, value));
         }
-        for term in terms.into_iter().flatten() {
+        for mut term in terms.into_iter().flatten() {
             let place = self.place(&term);
-            let value = self.product(copy, term.factors);
+            let value = self.product(copy, term.factors.get_mut());
             parts.push((place, signed(value, term.negative)));
         }
         parts.sort_by_key(|(place, _)| *place);
@@ -290,16 +331,22 @@ impl Lists {
     }
 
     fn place(&self, term: &Term) -> (bool, Element) {
-        let places = term.factors.iter().map(|&f| self.order[f as usize]);
+        let places = term.factors.get().iter().map(|&f| self.order[f as usize]);
         places.max().unwrap_or_default()
     }
 }
 
-/// The factors that more than one term has, each with the indices of these terms; the most frequent factor comes first.
+/// Factors that more than one term has, with these terms, the most frequent factor first; none where no two terms are products.
 fn common_factors(terms: &[Option<Term>]) -> Vec<(Element, Vec<usize>)> {
+    let products = terms.iter().flatten();
+    if products.filter(|term| term.factors.get().len() > 1).count() < 2 {
+        // nothing would be gained
+        return Vec::new();
+    }
     let mut entries: Vec<(Element, usize)> = Vec::new();
     for (at, term) in terms.iter().enumerate() {
-        entries.extend(term.iter().flat_map(|t| &t.factors).map(|&f| (f, at)));
+        let factors = term.iter().flat_map(|t| t.factors.get());
+        entries.extend(factors.map(|&f| (f, at)));
     }
     entries.sort_unstable();
     entries.dedup();

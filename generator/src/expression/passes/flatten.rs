@@ -60,12 +60,10 @@ pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
     let users = Users::of(&nodes, live);
     let owners = graph.owners();
     let sections = graph.sections();
-    let element = |id: NodeId| {
-        let section = graph.section_of(id);
-        sections[section]
-            .starts_with("element ")
-            .then(|| owners[section])
-    };
+    let sections = owners.iter().zip(&*sections);
+    let elements = sections.map(|(owner, name)| name.starts_with("element ").then_some(*owner));
+    let elements: Vec<Option<usize>> = elements.collect();
+    let element = |id: NodeId| elements[graph.section_of(id)];
     let passed_on = |id: NodeId, user: NodeId| {
         let sums = is_sum(&nodes[user.0 as usize]) && is_sum(&nodes[id.0 as usize]);
         let of = element(id).zip(element(user));

@@ -18,7 +18,7 @@ use crate::expression::node::{Node, NodeId};
 pub fn fuse(graph: &Graph, roots: &[NodeId]) -> Rewritten {
     let live = Live::new(graph, roots);
     let fused = select(graph, &live);
-    let mut copy = Copier::new(graph);
+    let mut copy = Copier::new(graph, live.nodes().len());
     for &id in live.nodes() {
         match fused[id.0 as usize] {
             Choice::Keep => copy.keep(id),

@@ -1,11 +1,11 @@
 //! Passes: each turns a graph and its roots into an equivalent one that is smaller or cheaper. Sections and names are
 //! kept.
 //!
-//! [`rebuild()`] drops nodes that are not needed. [`join()`] merges several graphs. [`replace()`] replaces values that
-//! are already known, and [`restore()`] puts values back. [`factor()`] reduces the number of operations. [`fuse()`]
-//! selects fused multiply-adds and comes last. After these, [`repeat()`] undoes some sharing between nodes that are
-//! evaluated far apart. [`recall()`] works on an expression of a graph that continues to grow. The roots should be
-//! those of one evaluation: a value that two functions use once each is not shared between them.
+//! [`rebuild()`] drops nodes that are not needed. [`join()`] merges several graphs. [`replace()`] replaces values that are already known,
+//! and [`restore()`] puts values back.
+//! [`factor()`] reduces the number of operations. [`fuse()`] selects fused multiply-adds and comes last. [`repeat()`] then undoes some sharing
+//! between nodes that are evaluated far apart. [`Recall`] works on expressions of a graph that continues to grow. The roots should be those of
+//! one evaluation: a value that two functions use once each is not shared between them.
 
 pub mod factor;
 mod flatten;
@@ -19,6 +19,6 @@ pub mod replace;
 pub use factor::factor;
 pub use fuse::fuse;
 pub use rebuild::{Rewritten, join, rebuild};
-pub use recall::recall;
+pub use recall::Recall;
 pub use repeat::repeat;
 pub use replace::{needed, replace, restore};

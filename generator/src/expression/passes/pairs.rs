@@ -23,11 +23,22 @@ pub(super) struct Pair {
 /// Removes pairs that occur in at least two lists from these lists, and appends new operands, numbered from `next`,
 /// that stand for them. A pair may contain older pairs. Lists must be ordered by operand, and stay so.
 pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
+    // what only one list has is in no common pair
+    let mut occurrences = vec![0u32; next as usize];
+    for (_, element) in lists.iter().flatten() {
+        occurrences[*element as usize] += 1;
+    }
+    let may_be_common = |(_, element): (bool, Element)| {
+        let count = occurrences.get(element as usize);
+        count.is_none_or(|count| *count > 1)
+    };
     let mut entries = Vec::new();
     for (at, list) in lists.iter().enumerate() {
-        for (i, a) in list.iter().enumerate() {
+        for (i, a) in list.iter().enumerate().filter(|(_, a)| may_be_common(**a)) {
             for b in list[i + 1..].iter().take(WINDOW) {
-                entries.push((key(*a, *b), at as u32));
+                if may_be_common(*b) {
+                    entries.push(entry(key(*a, *b), at as u32));
+                }
             }
         }
     }
@@ -53,7 +64,9 @@ pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
                 remove(list, pair.first);
                 remove(list, pair.second);
                 for other in list.iter().rev().take(WINDOW) {
-                    entries.push((self::key(*other, (sign, new)), at));
+                    if may_be_common(*other) {
+                        entries.push(entry(self::key(*other, (sign, new)), at));
+                    }
                 }
                 list.push((sign, new));
             }
@@ -66,28 +79,34 @@ pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
 /// The number of occurrences, the pair, and the lists that have it.
 type Candidate = (usize, Reverse<Key>, Vec<u32>);
 
-type Key = (Element, Element, bool);
+/// First element, second element, and whether they are opposite, as one number that is quick to compare.
+type Key = u128;
 
 fn key(a: (bool, Element), b: (bool, Element)) -> Key {
-    (a.1, b.1, a.0 != b.0)
+    u128::from(a.1) << 33 | u128::from(b.1) << 1 | u128::from(a.0 != b.0)
 }
 
-fn pair((first, second, opposite): Key) -> Pair {
+fn pair(key: Key) -> Pair {
     Pair {
-        first,
-        second,
-        opposite,
+        first: (key >> 33) as Element,
+        second: (key >> 1) as Element,
+        opposite: key & 1 == 1,
     }
 }
 
+/// A pair and a list that has it, ordered by the pair and then by the list.
+fn entry(key: Key, list: u32) -> u128 {
+    key << 32 | u128::from(list)
+}
+
 /// Queues the pairs that occur in more than one list.
-fn push_groups(queue: &mut BinaryHeap<Candidate>, mut entries: Vec<(Key, u32)>) {
+fn push_groups(queue: &mut BinaryHeap<Candidate>, mut entries: Vec<u128>) {
     entries.sort_unstable();
     entries.dedup();
-    for group in entries.chunk_by(|a, b| a.0 == b.0) {
+    for group in entries.chunk_by(|a, b| a >> 32 == b >> 32) {
         if group.len() > 1 {
-            let lists = group.iter().map(|(_, at)| *at).collect();
-            queue.push((group.len(), Reverse(group[0].0), lists));
+            let lists = group.iter().map(|entry| *entry as u32).collect();
+            queue.push((group.len(), Reverse(group[0] >> 32), lists));
         }
     }
 }

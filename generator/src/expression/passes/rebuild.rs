@@ -17,8 +17,9 @@ pub struct Rewritten {
 
 /// The live part of the graph, folded once more.
 pub fn rebuild(graph: &Graph, roots: &[NodeId]) -> Rewritten {
-    let mut copy = Copier::new(graph);
-    for &id in Live::new(graph, roots).nodes() {
+    let live = Live::new(graph, roots);
+    let mut copy = Copier::new(graph, live.nodes().len());
+    for &id in live.nodes() {
         copy.fold(id);
     }
     copy.finish(roots)
@@ -49,20 +50,24 @@ pub(super) struct Copier<'a> {
     new: Graph,
     /// For each old node, its new node.
     map: Vec<Option<NodeId>>,
+    /// For each old node, whether it has a name.
+    named: Vec<bool>,
     section: usize,
     /// For each section of the old graph, its index in the new one.
     sections: Vec<u32>,
 }
 
 impl<'a> Copier<'a> {
-    pub fn new(old: &'a Graph) -> Self {
+    /// A copy of about so many nodes.
+    pub fn new(old: &'a Graph, nodes: usize) -> Self {
         let sections = old.sections().len();
         Copier {
+            named: old.named(),
             sections: (0..sections as u32).collect(),
             map: vec![None; old.len()],
             section: sections - 1,
             old,
-            new: Graph::with_sections_of(old),
+            new: Graph::with_sections_of(old, nodes),
         }
     }
 
@@ -77,6 +82,7 @@ impl<'a> Copier<'a> {
         let sections: Vec<u32> = sections.iter().map(enter).collect();
         Copier {
             sections,
+            named: old.named(),
             map: vec![None; old.len()],
             section: old.sections().len() - 1,
             old,
@@ -106,7 +112,7 @@ impl<'a> Copier<'a> {
     /// Sets the new node of an old node; the name is copied, too.
     pub fn set(&mut self, id: NodeId, new: NodeId) {
         self.map[id.0 as usize] = Some(new);
-        if self.old.is_named(id)
+        if self.named[id.0 as usize]
             && let Some(name) = self.old.name_of(id)
         {
             self.new.name(self.new.expr(new), name);

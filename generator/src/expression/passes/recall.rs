@@ -1,51 +1,87 @@
-//! Replaces the functions of calls in one expression of a graph that continues to grow.
+//! Replaces functions that are called, in expressions of a graph that continues to grow.
 
 use super::rebuild::construct;
-use crate::expression::graph::Expr;
+use crate::expression::graph::{Expr, Graph};
 use crate::expression::node::{Function, Node, NodeId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// The expression with each called function mapped by `of`. Nodes without a changed call are reused.
-pub fn recall<'g>(expression: Expr<'g>, of: impl Fn(Function) -> Function) -> Expr<'g> {
-    let (graph, root) = (expression.graph(), expression.id());
-    let mut moved: FxHashMap<NodeId, NodeId> = FxHashMap::default();
-    for id in below(expression) {
-        let node = graph.node(id);
-        let other = match node {
-            Node::Call(function, operands) => Node::Call(of(function), operands),
-            node => node,
-        };
-        if other == node && !node.operands().any(|operand| moved.contains_key(&operand)) {
-            continue;
-        }
-        let operand = |id: NodeId| graph.expr(moved.get(&id).copied().unwrap_or(id));
-        moved.insert(id, construct(graph, other, operand).id());
-    }
-    graph.expr(moved.get(&root).copied().unwrap_or(root))
+/// Expressions of one graph with each called function replaced by `of` of it. What several expressions have in common is looked at once.
+pub struct Recall<'g, F> {
+    graph: &'g Graph,
+    of: F,
+    /// The number of nodes that were searched for calls that change.
+    searched: usize,
+    /// The oldest call that changes: what is older stays as it is.
+    first: Option<usize>,
+    /// The nodes that were looked at.
+    known: FxHashSet<NodeId>,
+    /// The new nodes of those that changed.
+    moved: FxHashMap<NodeId, NodeId>,
 }
 
-/// The nodes that an expression needs, in order of creation. The time grows with their number, not with that of the
-/// graph.
-fn below(expression: Expr<'_>) -> Vec<NodeId> {
-    let nodes = expression.graph().nodes();
-    let mut found = FxHashSet::from_iter([expression.id()]);
-    let mut open = vec![expression.id()];
-    while let Some(id) = open.pop() {
-        open.extend(
-            nodes[id.0 as usize]
-                .operands()
-                .filter(|operand| found.insert(*operand)),
-        );
+impl<'g, F: Fn(Function) -> Function> Recall<'g, F> {
+    /// No expression yet.
+    pub fn new(graph: &'g Graph, of: F) -> Self {
+        Recall {
+            graph,
+            of,
+            searched: 0,
+            first: None,
+            known: FxHashSet::default(),
+            moved: FxHashMap::default(),
+        }
     }
-    let mut found: Vec<NodeId> = found.into_iter().collect();
-    found.sort_unstable();
-    found
+
+    /// The expression with other functions. Nodes that call no replaced function stay as they are.
+    pub fn expression(&mut self, expression: Expr<'g>) -> Expr<'g> {
+        let (graph, root) = (self.graph, expression.id());
+        for id in self.anew(root) {
+            let node = graph.node(id);
+            let other = match node {
+                Node::Call(function, operands) => Node::Call((self.of)(function), operands),
+                node => node,
+            };
+            let moved = &self.moved;
+            if other == node && !node.operands().any(|operand| moved.contains_key(&operand)) {
+                continue;
+            }
+            let operand = |id: NodeId| graph.expr(moved.get(&id).copied().unwrap_or(id));
+            let new = construct(graph, other, operand).id();
+            self.moved.insert(id, new);
+        }
+        graph.expr(self.moved.get(&root).copied().unwrap_or(root))
+    }
+
+    /// The nodes that an expression needs, that may change, and that were not looked at, in order of creation.
+    fn anew(&mut self, root: NodeId) -> Vec<NodeId> {
+        let graph = self.graph;
+        let nodes = graph.nodes();
+        let changes = |node: &Node| matches!(node, Node::Call(function, _) if (self.of)(*function) != *function);
+        if self.first.is_none() {
+            let found = nodes[self.searched..].iter().position(changes);
+            self.first = found.map(|at| self.searched + at);
+            self.searched = nodes.len();
+        }
+        let Some(first) = self.first else {
+            return Vec::new();
+        };
+        let mut found = Vec::new();
+        let mut open = vec![root];
+        while let Some(id) = open.pop() {
+            if id.0 as usize >= first && self.known.insert(id) {
+                found.push(id);
+                open.extend(nodes[id.0 as usize].operands());
+            }
+        }
+        found.sort_unstable();
+        found
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expression::{Graph, Symbol};
+    use crate::expression::Symbol;
 
     #[test]
     fn only_what_changes_is_made_anew() {
@@ -58,10 +94,14 @@ mod tests {
         let called = graph.call(Function::Curve(3), &[x + y]);
         let unchanged = (x * y).sqrt();
         let value = graph.call(Function::Coulomb, &[called, unchanged, x]) - unchanged;
-        let new = recall(value, slope);
+        let mut recall = Recall::new(&graph, slope);
+        let new = recall.expression(value);
         let called = graph.call(Function::CurveSlope(3), &[x + y]);
         let expected = graph.call(Function::Coulomb, &[called, unchanged, x]) - unchanged;
         assert_eq!(new.id(), expected.id());
-        assert_eq!(recall(unchanged, slope).id(), unchanged.id());
+        assert_eq!(recall.expression(unchanged).id(), unchanged.id());
+        // what was made of a part before is found again, also under a new node
+        let more = recall.expression(value * x - unchanged);
+        assert_eq!(more.id(), (new * x - unchanged).id());
     }
 }

@@ -23,7 +23,7 @@ const WORTH: usize = 4;
 /// and if that is worth it in this block.
 pub fn repeat(graph: &Graph, roots: &[NodeId], blocks: &[Vec<NodeId>]) -> Rewritten {
     let repeated = repeated(graph, blocks);
-    let mut copy = Copier::new(graph);
+    let mut copy = Copier::new(graph, graph.len());
     let operations = blocks.iter().flatten();
     let operands = operations.flat_map(|&id| graph.node(id).operands());
     let inputs: BTreeSet<NodeId> = operands

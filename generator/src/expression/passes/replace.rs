@@ -14,8 +14,9 @@ pub fn replace(
     roots: &[NodeId],
     by: &FxHashMap<NodeId, (Symbol, bool)>,
 ) -> Rewritten {
-    let mut copy = Copier::new(graph);
-    for id in needed(graph, roots, by) {
+    let needed = needed(graph, roots, by);
+    let mut copy = Copier::new(graph, needed.len());
+    for id in needed {
         if let Some(&(symbol, negative)) = by.get(&id) {
             let symbol = copy.graph().symbol(symbol).id();
             let new = if negative {
@@ -31,18 +32,21 @@ pub fn replace(
     copy.finish(roots)
 }
 
-/// The graph with each of these inputs replaced by a value of `other`, together with the nodes that compute the value.
-/// The opposite of [`replace`].
-pub fn restore(rewritten: &Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
-    let Rewritten { graph, roots } = rewritten;
+/// The graph with each of these inputs turned into a value of `other`, and with the nodes that compute it. The opposite of [`replace`].
+pub fn restore(rewritten: Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
+    let Rewritten { graph, roots } = &rewritten;
     let live = Live::new(graph, roots);
     let value = |id: NodeId| match graph.node(id) {
         Node::Symbol(symbol) => by.get(&symbol).copied(),
         _ => None,
     };
     let values: Vec<NodeId> = live.nodes().iter().filter_map(|&id| value(id)).collect();
-    let mut copy = Copier::new(other);
-    for &id in Live::new(other, &values).nodes() {
+    if values.is_empty() {
+        return rewritten;
+    }
+    let needed = Live::new(other, &values);
+    let mut copy = Copier::new(other, needed.nodes().len() + live.nodes().len());
+    for &id in needed.nodes() {
         copy.keep(id);
     }
     let Rewritten {
@@ -71,9 +75,13 @@ pub fn needed(
     for root in roots {
         needed[root.0 as usize] = true;
     }
-    for id in (0..nodes.len() as u32).rev().map(NodeId) {
-        if needed[id.0 as usize] && !by.contains_key(&id) {
-            for operand in nodes[id.0 as usize].operands() {
+    let mut known = vec![false; nodes.len()];
+    for id in by.keys() {
+        known[id.0 as usize] = true;
+    }
+    for at in (0..nodes.len()).rev() {
+        if needed[at] && !known[at] {
+            for operand in nodes[at].operands() {
                 needed[operand.0 as usize] = true;
             }
         }
@@ -113,7 +121,7 @@ mod tests {
         let by = FxHashMap::from_iter([(known.id(), (stand_in, false))]);
         let without = replace(&graph, &[value.id()], &by);
         let by = FxHashMap::from_iter([(stand_in, known.id())]);
-        let again = restore(&without, &graph, &by);
+        let again = restore(without, &graph, &by);
         assert_eq!(again.graph.len(), graph.len());
         let Node::Add(product, quotient) = again.graph.node(again.roots[0]) else {
             panic!("it is a sum, of older terms first");

@@ -17,9 +17,9 @@ use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
 use candidates::reach;
 use part::{Part, matrices};
 use rustc_hash::FxHashMap;
-use shape::shape;
+use shape::{Exact, shape};
 use std::cell::{Cell, RefCell};
-use std::sync::Mutex;
+use std::sync::{Arc, LazyLock, Mutex};
 
 /// Number of sweeps over all links.
 const SWEEPS: usize = 2;
@@ -38,7 +38,7 @@ const FAR: usize = 16;
 const KEPT: usize = 64;
 
 /// The equations that should take the fewest operations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Aim {
     /// The accelerations by the articulated-body algorithm.
     Elimination,
@@ -51,9 +51,22 @@ pub enum Aim {
 /// The choices for earlier trees, by their [signature](Search::signature). Many effects and parameters do not change the tree.
 static KNOWN: Mutex<Vec<(Vec<u64>, Choice)>> = Mutex::new(Vec::new());
 
+/// The operations of the parts of earlier trees: trees that differ in one link have most parts in common. They are found by shape and numbers, on
+/// which alone they depend, so it does not matter which are here.
+static COUNTED: LazyLock<Mutex<Arc<Counted>>> = LazyLock::new(Mutex::default);
+
+type Counted = FxHashMap<(Aim, Exact), usize>;
+
+/// All these counts are forgotten where there are more.
+const MOST_COUNTED: usize = 1 << 18;
+
 /// The best choice that the search finds.
 pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
     let mut search = Search::new(tree, aim);
+    search.others = COUNTED
+        .lock()
+        .map(|counted| counted.clone())
+        .unwrap_or_default();
     let signature = search.signature();
     if let Ok(known) = KNOWN.lock()
         && let Some((_, choice)) = known.iter().find(|(of, _)| *of == signature)
@@ -66,6 +79,13 @@ pub fn choice(tree: &Tree<'_>, aim: Aim) -> Choice {
             known.remove(0);
         }
         known.push((signature, search.best.clone()));
+    }
+    if let Ok(mut counted) = COUNTED.lock() {
+        let counted = Arc::make_mut(&mut counted);
+        if counted.len() > MOST_COUNTED {
+            counted.clear();
+        }
+        counted.extend(search.anew.take());
     }
     search.best
 }
@@ -110,6 +130,10 @@ struct Search<'t, 'g> {
     counted: RefCell<FxHashMap<Vec<u64>, usize>>,
     /// The operations of all parts that were derived, by their shape.
     shapes: RefCell<FxHashMap<u128, usize>>,
+    /// Those of earlier trees.
+    others: Arc<Counted>,
+    /// Those that earlier trees did not have.
+    anew: RefCell<Counted>,
     /// The number of links that were brought into frames, and of those whose equations were derived.
     work: Cell<[usize; 2]>,
     /// The graph of the trials, one after the other.
@@ -159,6 +183,8 @@ impl<'t, 'g> Search<'t, 'g> {
             columns,
             counted: RefCell::default(),
             shapes: RefCell::default(),
+            others: Arc::default(),
+            anew: RefCell::default(),
             work: Cell::default(),
             graph: Graph::new(),
         }
@@ -260,8 +286,12 @@ impl<'t, 'g> Search<'t, 'g> {
         let links = part.tree.links.len();
         let [in_frames, derived] = self.work.get();
         self.work.set([in_frames + links, derived]);
-        let shape = shape(graph, &part, &framed, part.tree.needs_axes());
-        if let Some(count) = self.shapes.borrow().get(&shape) {
+        let exact = shape(graph, &part, &framed, part.tree.needs_axes());
+        if let Some(count) = self.shapes.borrow().get(&exact.shape) {
+            return *count;
+        }
+        if let Some(count) = self.others.get(&(self.aim, exact)) {
+            self.shapes.borrow_mut().insert(exact.shape, *count);
             return *count;
         }
         self.work.set([in_frames + links, derived + links]);
@@ -277,7 +307,8 @@ impl<'t, 'g> Search<'t, 'g> {
             Aim::Factorization => matrices(&part, &framed, Reference::ChosenOfAxes),
         };
         let count = operations(graph, &roots);
-        self.shapes.borrow_mut().insert(shape, count);
+        self.shapes.borrow_mut().insert(exact.shape, count);
+        self.anew.borrow_mut().insert((self.aim, exact), count);
         count
     }
 

@@ -15,10 +15,20 @@ use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
 use rustc_hash::{FxHashMap, FxHasher};
 use std::hash::{Hash, Hasher};
 
-/// The shape of a part as a number that other shapes do not have, by all that is likely.
-pub fn shape(graph: &Graph, part: &Part<'_>, framed: &Framed<'_>, needs_axes: bool) -> u128 {
+/// The shape of a part, and its shape together with its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Exact {
+    /// The shape as a number that other shapes do not have, by all that is likely.
+    pub shape: u128,
+    /// The same for all digits of the numbers.
+    numbers: u128,
+}
+
+/// The shape of a part.
+pub fn shape(graph: &Graph, part: &Part<'_>, framed: &Framed<'_>, needs_axes: bool) -> Exact {
     let mut shape = Shape {
         halves: [0; 2],
+        digits: [0; 2],
         graph,
         seen: vec![0; graph.len()],
         count: 0,
@@ -28,6 +38,9 @@ pub fn shape(graph: &Graph, part: &Part<'_>, framed: &Framed<'_>, needs_axes: bo
     shape.number(choice.unit);
     shape.word(u64::from(tree.free));
     shape.word(tree.base.map_or(0, |base| 1 + base as u64));
+    for &direction in tree.directions {
+        shape.word(direction as u64);
+    }
     if tree.free && tree.carrier.is_none() {
         for b in choice.base {
             shape.number(b);
@@ -57,15 +70,28 @@ pub fn shape(graph: &Graph, part: &Part<'_>, framed: &Framed<'_>, needs_axes: bo
             shape.values(&frame.origin.0);
         }
     }
-    let [low, high] = shape.halves.map(u128::from);
-    high << 64 | low
+    let whole = |[low, high]: [u64; 2]| u128::from(high) << 64 | u128::from(low);
+    Exact {
+        shape: whole(shape.halves),
+        numbers: whole(shape.digits),
+    }
 }
 
 /// The number of last digits that do not count, of 52 \[bit\].
 const ROUNDED: u32 = 12;
 
+/// Makes both halves depend on one more word.
+fn mix([low, high]: &mut [u64; 2], word: u64) {
+    // odd numbers without a pattern: of the golden ratio and of √2
+    *low = (low.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    *high = (high.rotate_left(23) ^ word).wrapping_mul(0x6a09_e667_f3bc_c909);
+    *high ^= *high >> 29;
+}
+
 struct Shape<'h> {
     halves: [u64; 2],
+    /// The same of the digits of numbers.
+    digits: [u64; 2],
     graph: &'h Graph,
     /// For each node, its number among those that were met, from 1; 0 if it was not.
     seen: Vec<u32>,
@@ -76,14 +102,11 @@ struct Shape<'h> {
 
 impl Shape<'_> {
     fn word(&mut self, word: u64) {
-        // odd numbers without a pattern: of the golden ratio and of √2
-        let [low, high] = &mut self.halves;
-        *low = (low.rotate_left(5) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-        *high = (high.rotate_left(23) ^ word).wrapping_mul(0x6a09_e667_f3bc_c909);
-        *high ^= *high >> 29;
+        mix(&mut self.halves, word);
     }
 
     fn number(&mut self, number: f64) {
+        mix(&mut self.digits, number.to_bits());
         let (size, negative) = (number.abs(), number < 0.0);
         let (class, opposite) = match size {
             0.0 => (0, false),
