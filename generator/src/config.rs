@@ -134,7 +134,7 @@ impl Config {
         };
         let equations = dynamics::derive_with(model, options);
         let lists = program::lists(model, &equations, &self.options);
-        c::source(&lists, &program::about(model, &equations))
+        c::source(&lists, &program::header(model, &equations))
     }
 
     /// The methods of a model as lists, with the same operations as [`Self::source`], bit for bit.

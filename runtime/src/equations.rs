@@ -5,7 +5,7 @@
 //! in a quarter of the time. This file is the root of that crate, which is also called `bryant_runtime`; it is no
 //! module of the full crate.
 
-pub mod apart;
+pub mod ffi;
 pub mod curve;
 pub mod dynamics;
 pub mod force;

@@ -5,7 +5,7 @@
 //!
 //! A build script calls `bryant_generator::Config`, which writes a module for each model. Your crate includes it by
 //! [`include_model!`]. You implement nothing: the module has a struct `Mechanism`, generic over the scalar ([`Real`]),
-//! which implements [`Model`]. The examples below use the double pendulum of `examples/stranger`, whose crate has
+//! which implements [`Model`]. The examples below use the double pendulum of `examples/own-crate`, whose crate has
 //!
 //! ```ignore
 //! mod arm {
@@ -163,12 +163,12 @@
 #![cfg_attr(not(any(feature = "std", test)), no_std)]
 
 #[cfg(feature = "std")]
-pub mod apart;
-#[cfg(feature = "std")]
 pub mod batch;
 pub mod curve;
 pub mod dynamics;
 pub mod failure;
+#[cfg(feature = "std")]
+pub mod ffi;
 pub mod force;
 pub mod integrate;
 mod leap;

@@ -11,14 +11,14 @@ macro_rules! files {
 }
 
 files! {
-    "apart.rs",
+    "ffi.rs",
     "batch/acceleration.rs",
     "batch/bend.rs",
     "batch/control.rs",
     "batch/event.rs",
     "batch/jump.rs",
     "batch/landing.rs",
-    "batch/looked.rs",
+    "batch/onset_cache.rs",
     "batch/mod.rs",
     "batch/models.rs",
     "batch/onset.rs",

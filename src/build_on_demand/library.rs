@@ -1,14 +1,14 @@
 //! A library that was compiled on demand and loaded into this process. Only this file calls functions by their
 //! addresses in it.
 //!
-//! [`apart`](super::apart) writes the exports of a library; `bryant_runtime::apart` has the caller's and the callee's
+//! [`exports`](super::exports) writes the exports of a library; `bryant_runtime::ffi` has the caller's and the callee's
 //! side of each call. A library stays loaded until the process ends, because anything may still call its functions.
 #![expect(
     unsafe_code,
     reason = "what is loaded is called by its address; the compiler does not see that it fits"
 )]
 
-use bryant_runtime::apart::{
+use bryant_runtime::ffi::{
     Call, DONE, Discard, Evaluate, Make, NOTHING, PANICKED, VERSION, What, number_of,
 };
 use bryant_runtime::real::Form;

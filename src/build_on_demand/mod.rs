@@ -11,8 +11,8 @@
 //! directory and then moved to its place, so that two runs at once do not disturb each other, and an interrupted one
 //! leaves no incomplete entry.
 
-mod apart;
 mod cache;
+mod exports;
 pub mod guard;
 mod library;
 mod message;

@@ -1,10 +1,10 @@
 //! A model whose generated Rust was compiled by rustc, for comparison with the engine.
 
-use super::apart::{Source, exports_of_model, library, unusable};
+use super::exports::{Source, exports_of_model, library, unusable};
 use super::guard::{self, Inside, What as Named};
 use super::library::{Compiled, CompiledModel, Panic};
 use super::{BuildError, Rustc, Stage, Unit};
-use bryant_runtime::apart::What;
+use bryant_runtime::ffi::What;
 use bryant_runtime::{Adjustable, Dynamics, Info};
 use std::sync::OnceLock;
 

@@ -1,6 +1,6 @@
 //! The functions of a model's user forces: compiled as a library that this process loads and calls.
 
-use super::apart::{Source, exports_of_functions, library, unusable};
+use super::exports::{Source, exports_of_functions, library, unusable};
 use super::guard::{self, Inside, What};
 use super::library::{Function, Functions, Panic};
 use super::message::place_in_texts;

@@ -12,7 +12,7 @@ use crate::build_on_demand::UserForces;
 use crate::evaluation::{self, Evaluation, State};
 use crate::files;
 use crate::notation::Notation;
-use crate::own::Kind;
+use crate::signature::Kind;
 use bryant_engine::UserFunctions;
 use bryant_generator::Config;
 use bryant_generator::description::load::read_file;

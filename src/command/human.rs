@@ -3,7 +3,7 @@
 use super::Error;
 use super::outputs::{Outputs, Replacing, is_standard};
 use super::terminal::Terminal;
-use crate::own::{self, Kind};
+use crate::signature::{self, Kind};
 use crate::{files, quantity};
 use bryant_generator::human::{JOINTS, NAMES, Neutral, Person, Posture, Sex, Size, Written, yaml};
 use clap::ValueEnum;
@@ -159,8 +159,10 @@ impl Arguments {
             Some(path) if !is_standard(path) => {
                 let mut outputs = Outputs::of([], self.replacing);
                 outputs.take("--out", path, Kind::Model)?;
-                files::replace(path, |out| out.write_all(own::signed(&text).as_bytes()))
-                    .map_err(Error::system)?;
+                files::replace(path, |out| {
+                    out.write_all(signature::signed(&text).as_bytes())
+                })
+                .map_err(Error::system)?;
                 terminal.note(&format!("wrote {}", path.display()));
                 Ok(())
             }

@@ -4,7 +4,7 @@ use super::Error;
 use super::outputs::{Outputs, Replacing};
 use super::terminal::Terminal;
 use crate::files;
-use crate::own::{self, Kind};
+use crate::signature::{self, Kind};
 use bryant_generator::description::load::{ModelText, read_file, read_text, shown};
 use bryant_generator::model;
 use bryant_generator::urdf::{Base, Options};
@@ -100,7 +100,7 @@ impl Arguments {
             Some(path) => {
                 let mut outputs = Outputs::of([&self.file], self.replacing);
                 outputs.take("--out", path, Kind::Model)?;
-                let text = own::signed(&imported.text);
+                let text = signature::signed(&imported.text);
                 files::replace(path, |file| file.write_all(text.as_bytes()))
                     .map_err(Error::system)?;
             }

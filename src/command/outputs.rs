@@ -3,8 +3,8 @@
 
 use super::Error;
 use crate::files;
-use crate::own::{self, Kind};
 use crate::picture::Format;
+use crate::signature::{self, Kind};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Component, Path, PathBuf};
@@ -89,7 +89,7 @@ impl Outputs {
         if self.replacing.force || is_standard(path) {
             return Ok(());
         }
-        let may = own::may_replace(path, kind).map_err(|error| {
+        let may = signature::may_replace(path, kind).map_err(|error| {
             Error::System(format!("cannot look at {}: {error}", path.display()))
         })?;
         match may {

@@ -1,7 +1,7 @@
 //! `bryant run`: runs a model, and writes the motion as a table, files and pictures.
 
 mod animation;
-mod beside;
+mod comparison;
 mod criteria;
 mod files;
 mod outcome;
@@ -10,9 +10,9 @@ mod report;
 mod responses;
 mod result;
 mod rings;
-mod shown;
+mod scene;
 
-use self::shown::Shown;
+use self::scene::Shown;
 use super::Error;
 use super::accuracy::accuracy;
 use super::caution::{self, singular::Near};

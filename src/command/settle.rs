@@ -10,9 +10,9 @@ use super::parameters::{parse_parameters, values_of};
 use super::prepare::{Prepared, prepare_model};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
-use crate::own::{self, Kind};
 use crate::scene::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
+use crate::signature::{self, Kind};
 use crate::{files, interrupt, quantity, simulation, state_file};
 use bryant_generator::model::{
     Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity, Reference,
@@ -207,7 +207,7 @@ impl Arguments {
     ) -> Result<(), Error> {
         let state = match self.yaml {
             true => written::start(&found.model, info, values, &settled.state)
-                .map(|text| own::signed(&text))
+                .map(|text| signature::signed(&text))
                 .map_err(Error::failed)?,
             false => state_file::of_state(&found.model.name, info, 0.0, &settled.state),
         };

@@ -6,7 +6,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::files;
 use crate::interrupt;
-use crate::own::Kind;
+use crate::signature::Kind;
 use crate::stability::report::{json, markdown, text};
 use crate::stability::{self, Scenes};
 use std::path::{Path, PathBuf};

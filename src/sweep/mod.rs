@@ -10,12 +10,12 @@
 
 mod alone;
 mod engine;
-mod kept;
+mod inputs;
 mod plan;
 mod refusal;
 
 pub use alone::{Alone, alone};
 pub use engine::{FEW, Lanes};
-pub use kept::{Kept, KeptError, keep};
+pub use inputs::{Kept, KeptError, keep};
 pub use plan::{job, response_of};
 pub use refusal::{doubt, refusal};

@@ -19,11 +19,11 @@
 //! [`Lists`] are all methods of a model, with everything else needed to evaluate it;
 //! [`Config::lists`](crate::Config::lists) makes them.
 
-mod about;
 mod assemble;
 mod breakpoints;
 mod facts;
 pub(crate) mod formula;
+mod header;
 pub(crate) mod hoist;
 mod inline;
 mod join;
@@ -44,10 +44,10 @@ use crate::model::Model;
 use plan::Plan;
 
 pub use crate::method::{Method, Start};
-pub use about::about;
 pub(crate) use assemble::neighbours;
 pub use assemble::{counted_lists, lists};
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
+pub use header::header;
 pub use join::Combination;
 pub use list::{Input, List, Operation, Value};
 pub use lists::{Curve, Lists, Routine};

@@ -502,7 +502,7 @@ fn the_text_names_no_date_and_no_place() {
 #[test]
 fn the_examples_of_the_runtime_use_what_is_written_now() {
     let text = text(
-        &model("examples/stranger/double-pendulum.yaml"),
+        &model("examples/own-crate/double-pendulum.yaml"),
         &Options::default(),
     );
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../runtime/doc/double-pendulum.rs");

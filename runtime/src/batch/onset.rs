@@ -1,7 +1,7 @@
 //! Finds laws that begin and end to act within one step, in each lane, as [`crate::simulate`] does for a single run.
 
 use super::copies;
-use super::looked::Looked;
+use super::onset_cache::OnsetCache;
 use super::place::Places;
 use super::run::{Run, Section, each, replace};
 use crate::real::lanes::MOST_LANES;
@@ -27,7 +27,7 @@ pub(super) struct Onsets<T: Several> {
     corners: usize,
     hunts: Box<[Option<Hunt>]>,
     /// Values found within the steps that are searched.
-    looked: Looked,
+    looked: OnsetCache,
     /// The side found last in the step of each lane, an index in [`sides`].
     found: [usize; MOST_LANES],
     /// Whether steps are evaluated on the cubic, which no inner stage spoils.
@@ -52,7 +52,7 @@ impl<T: Several> Onsets<T> {
             values: core::array::from_fn(|_| zeros(2 * count)),
             corners: info.corners,
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
-            looked: Looked::new(count, info.corners),
+            looked: OnsetCache::new(count, info.corners),
             found: [0; MOST_LANES],
             on_cubic: false,
             missed: [None; MOST_LANES],

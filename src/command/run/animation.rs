@@ -7,7 +7,7 @@ use super::super::model_argument::Found;
 use super::super::prepare::prepare_model;
 use super::super::terminal::Terminal;
 use super::report::kept;
-use super::shown::Shown;
+use super::scene::Shown;
 use crate::accuracy::setting::Setting;
 use crate::animation::{glb, turns};
 use crate::scene::Scene;

@@ -1,15 +1,15 @@
 //! The files of a run, and the output that is printed instead of the table.
 
-use super::shown::Shown;
+use super::scene::Shown;
 use super::{Arguments, Error, Terminal};
 use crate::command::model_argument::Found;
 use crate::command::outputs::{Outputs, is_standard};
 use crate::files;
-use crate::own::Kind;
 use crate::picture::corridor::Corridor;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement, Format, View};
 use crate::scene::needs_forces;
+use crate::signature::Kind;
 use crate::simulation::Recording;
 use crate::state_file;
 use crate::table::{Layout, Table};

@@ -5,8 +5,8 @@ use super::super::error_report::ErrorReport;
 use super::super::terminal::Terminal;
 use super::outcome;
 use super::responses::Responses;
-use super::shown::Shown;
-use super::{Arguments, beside};
+use super::scene::Shown;
+use super::{Arguments, comparison};
 use crate::balance;
 use crate::picture::Instant;
 use crate::report::study::quoted;
@@ -79,8 +79,8 @@ pub fn html(
         let number = json!({ "value": value, "unit": parameter.unit });
         (parameter.name.clone(), number)
     });
-    let overlays = beside::measured(arguments, model, &recording.table)?;
-    let beside = beside::run(
+    let overlays = comparison::measured(arguments, model, &recording.table)?;
+    let beside = comparison::run(
         arguments,
         found,
         job,

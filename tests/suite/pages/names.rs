@@ -447,7 +447,7 @@ fn manifests() -> Vec<(PathBuf, String)> {
         "generated",
         "tests",
         "hard",
-        "examples/stranger",
+        "examples/own-crate",
     ];
     let paths = crates.map(|name| root().join(name));
     paths

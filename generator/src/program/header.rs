@@ -6,7 +6,7 @@ use crate::model::{Dimension, Model, Reference, System};
 use crate::names::plain;
 
 /// The description of a model, as lines: its tree, its coordinates, its effects.
-pub fn about(model: &Model, equations: &Equations) -> Vec<String> {
+pub fn header(model: &Model, equations: &Equations) -> Vec<String> {
     let mut text = Vec::new();
     let version = env!("CARGO_PKG_VERSION");
     let name = plain(&model.name);

@@ -18,7 +18,7 @@ const KEPT: usize = 8;
 type Numbers = [f64; MOST_LANES];
 
 /// The onsets at the ends of the quarters of steps, and gaps at places between.
-pub(super) struct Looked {
+pub(super) struct OnsetCache {
     onsets: usize,
     corners: usize,
     /// For each quarter: all gaps, then all speeds, in each lane.
@@ -43,11 +43,11 @@ fn numbers<T: Several>(scalar: T) -> Numbers {
     numbers
 }
 
-impl Looked {
+impl OnsetCache {
     /// An empty store for this number of onsets, the last of which are `corners`.
     pub fn new(onsets: usize, corners: usize) -> Self {
         let zeros = |length: usize| copies([0.0; MOST_LANES], length);
-        Looked {
+        OnsetCache {
             onsets,
             corners,
             quarters: core::array::from_fn(|_| zeros(2 * onsets)),
@@ -150,7 +150,7 @@ impl Looked {
 
 #[cfg(test)]
 mod tests {
-    use super::{Looked, Places, QUARTERS};
+    use super::{OnsetCache, Places, QUARTERS};
     use crate::Several;
     use crate::real::lanes::{MOST_LANES, OfAnyWidth, Width, with_width};
     use crate::simulate::onset::{Course, Hunt, finest_gaps, onset_of, sides};
@@ -233,7 +233,7 @@ mod tests {
                     let speeds = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].speed()));
                     gaps.chain(speeds).collect()
                 });
-                let mut looked = Looked::new(ONSETS, CORNERS);
+                let mut looked = OnsetCache::new(ONSETS, CORNERS);
                 looked.begin(&values);
                 // some lanes do not search
                 let searches = |lane: usize| !(lane as u64 + seed).is_multiple_of(3);

@@ -128,17 +128,17 @@ macro_rules! print {{
 
 mod model;
 
-use bryant_runtime::apart;
+use bryant_runtime::ffi;
 
 #[unsafe(no_mangle)]
 extern \"C\" fn {}() -> u32 {{
-    apart::keep_what_panics_say();
-    apart::VERSION
+    ffi::keep_what_panics_say();
+    ffi::VERSION
 }}
 
 #[unsafe(no_mangle)]
 unsafe extern \"C\" fn {}(place: *mut u8, length: usize) -> usize {{
-    unsafe {{ apart::said(place, length) }}
+    unsafe {{ ffi::said(place, length) }}
 }}
 ",
         names::START,
@@ -157,7 +157,7 @@ pub(super) fn exports_of_functions(apart: &Apart) -> String {
             "
 struct Function{k};
 
-impl apart::Adapter<{a}, {r}> for Function{k} {{
+impl ffi::Adapter<{a}, {r}> for Function{k} {{
     #[inline(always)]
     fn call<T: bryant_runtime::Real>(arguments: [T; {a}]) -> [T; {r}] {{
         model::{path}(arguments)
@@ -165,12 +165,12 @@ impl apart::Adapter<{a}, {r}> for Function{k} {{
 }}
 "
         );
-        arms += &format!("        {k} => apart::function::<Function{k}, {a}, {r}>(base, order),\n");
+        arms += &format!("        {k} => ffi::function::<Function{k}, {a}, {r}>(base, order),\n");
     }
     text + &format!(
         "
 #[unsafe(no_mangle)]
-extern \"C\" fn {}(function: u32, base: u32, order: u32) -> Option<apart::Call> {{
+extern \"C\" fn {}(function: u32, base: u32, order: u32) -> Option<ffi::Call> {{
     match function {{
 {arms}        _ => None,
     }}
@@ -196,12 +196,12 @@ type Mechanism = model::Mechanism<f64>;
 
 #[unsafe(no_mangle)]
 extern \"C\" fn {}() -> *mut c_void {{
-    apart::make::<Mechanism>()
+    ffi::make::<Mechanism>()
 }}
 
 #[unsafe(no_mangle)]
 unsafe extern \"C\" fn {}(model: *mut c_void) {{
-    unsafe {{ apart::discard::<Mechanism>(model) }}
+    unsafe {{ ffi::discard::<Mechanism>(model) }}
 }}
 
 #[unsafe(no_mangle)]
@@ -215,7 +215,7 @@ unsafe extern \"C\" fn {}(
     results_length: usize,
 ) -> i32 {{
     unsafe {{
-        apart::evaluate::<Mechanism, apart::{jacobian}>(
+        ffi::evaluate::<Mechanism, ffi::{jacobian}>(
             model, what, t, y, y_length, results, results_length,
         )
     }}
