@@ -92,7 +92,7 @@ pub(super) fn library(
 /// True if a file belongs to the part of the runtime whose root is `equations.rs`.
 fn belongs(path: &str) -> bool {
     let files = [
-        "apart.rs",
+        "ffi.rs",
         "curve.rs",
         "dynamics.rs",
         "equations.rs",

@@ -315,7 +315,7 @@ fn a_constant_acceleration_of_the_reference_is_a_held_curve() {
     );
     assert_eq!(x.times.value(&[5.0]), -10.0);
     assert_eq!(model.curves[z.curve].extrapolate, Extrapolate::Error);
-    assert_eq!(model.curves[z.curve].name, "reference man z");
+    assert_eq!(model.curves[z.curve].name, "reference man acceleration z");
 }
 
 fn load_of(model: &Model, index: usize) -> &Load {
