@@ -33,9 +33,10 @@ fn structure(svg: &str) -> Vec<String> {
             Some(format!("{class}: {}", points.matches(',').count()))
         })
         .collect();
-    // the legend has a column of its own, to the right of the frame
+    // the legend has a column of its own, to the right of the frame; which variant of a method is the best one depends on times
     let legend = svg.lines().filter(|line| line.contains(" x=\"748\" "));
-    parts.extend(legend.filter_map(|line| Some(line.split_once('>')?.1.to_owned())));
+    let method = |line: &str| Some(line.split_once('>')?.1.split(", ").next()?.to_owned());
+    parts.extend(legend.filter_map(method));
     parts
 }
 
