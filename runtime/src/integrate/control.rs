@@ -10,8 +10,8 @@ use super::{Evaluator, combine};
 use crate::real::{Mask, Number};
 use crate::{Info, Real, StateKind};
 
-/// The error allowed in one step, for each kind of entry of the state. For velocities and states of laws it is absolute
-/// + relative · |y|. For positions and angles it is the absolute part alone, because their size says only where the
+/// The error allowed in one step, for each kind of entry of the state. For velocities and states of laws it is
+/// absolute + relative · |y|. For positions and angles it is the absolute part alone, because their size says only where the
 /// origin is and how often something turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
