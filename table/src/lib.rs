@@ -4,7 +4,7 @@
 //! byte order mark are skipped. A field may be in quotation marks. The first line may have headings such as `ax [g]`,
 //! with the unit of the column.
 //!
-//! [`unit`] has all units, with their sizes and dimensions.
+//! [`mod@unit`] has all units, with their sizes and dimensions.
 //!
 //! What could be read in two ways is refused: a line with more or fewer fields than the first one, and a decimal comma.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
