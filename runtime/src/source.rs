@@ -11,17 +11,16 @@ macro_rules! files {
 }
 
 files! {
-    "ffi.rs",
     "batch/acceleration.rs",
     "batch/bend.rs",
     "batch/control.rs",
     "batch/event.rs",
     "batch/jump.rs",
     "batch/landing.rs",
-    "batch/onset_cache.rs",
     "batch/mod.rs",
     "batch/models.rs",
     "batch/onset.rs",
+    "batch/onset_cache.rs",
     "batch/place.rs",
     "batch/reach.rs",
     "batch/rows.rs",
@@ -45,6 +44,7 @@ files! {
     "dynamics.rs",
     "equations.rs",
     "failure.rs",
+    "ffi.rs",
     "force/approach/mod.rs",
     "force/approach/plane.rs",
     "force/approach/space.rs",

@@ -346,7 +346,7 @@ fn lists_are_read_from_csv_with_units_in_headings() {
     );
     let message = problem(read("friction,lap_slack\n0.2,0.01\n0.2,7\n"));
     assert!(
-        message.starts_with("rows.csv:3:1") && message.contains("from 0 to 0.1 m"),
+        message.starts_with("rows.csv:3:5") && message.contains("from 0 to 0.1 m"),
         "{message}"
     );
     let message = problem(read("frictoin\n0.2\n"));
