@@ -352,7 +352,7 @@ fn lists_are_read_from_csv_with_units_in_headings() {
     let message = problem(read("frictoin\n0.2\n"));
     assert!(message.contains("did you mean \"friction\""), "{message}");
     assert!(problem(read("friction\n")).contains("no rows"));
-    assert!(problem(read("friction,lap_slack\n1\n")).contains("cannot read"));
+    assert!(problem(read("friction,lap_slack\n1\n")).contains("has 1 field"));
 }
 
 #[test]
