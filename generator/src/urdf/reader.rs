@@ -314,9 +314,17 @@ impl<'a> Reader<'a> {
         let geometry = self.xml.child(node, "geometry");
         let shape = geometry.and_then(|geometry| geometry.children().find(Node::is_element));
         // what is wrong is already reported
-        shape
+        let mut meshes = shape
             .and_then(|shape| self.meshes_of(shape, self.origin(node)))
-            .unwrap_or_default()
+            .unwrap_or_default();
+        let all = meshes.len();
+        // exporters write a box of no size where a link has nothing to show
+        meshes.retain(Mesh::is_seen);
+        if all > 0 && meshes.is_empty() {
+            let place = self.xml.place(node);
+            self.leave_out(node, place, Why::Idle, "visual shapes without size");
+        }
+        meshes
     }
 
     fn meshes_of(&self, shape: Node<'a, 'a>, frame: Frame) -> Option<Vec<Mesh>> {

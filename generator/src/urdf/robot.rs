@@ -63,6 +63,19 @@ pub struct Mesh {
     pub scale: Vector,
 }
 
+impl Mesh {
+    /// True if it has a size along each axis. A file may be mirrored by a negative factor.
+    pub fn is_seen(&self) -> bool {
+        let seen = |factor: &f64| match self.of {
+            Triangles::Solid(_) => *factor > 0.0,
+            Triangles::File(_) => *factor != 0.0,
+        };
+        self.scale
+            .iter()
+            .all(|factor| factor.is_finite() && seen(factor))
+    }
+}
+
 /// Mass, and inertia tensor about the centre of mass in the axes of `frame`.
 pub struct Inertial {
     pub place: Place,

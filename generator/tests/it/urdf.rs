@@ -61,6 +61,42 @@ fn geometry(shape: &str) -> String {
     )
 }
 
+/// Placeholders of exporters: what is only shown refuses no robot.
+#[test]
+fn visual_shapes_without_size_are_left_out() {
+    for shape in [
+        "<box size=\"0 0 0\"/>",
+        "<box size=\"1 1 0\"/>",
+        "<box size=\"-1 1 1\"/>",
+        "<sphere radius=\"0\"/>",
+        "<sphere radius=\"-1\"/>",
+        "<cylinder radius=\"0.1\" length=\"0\"/>",
+        "<mesh filename=\"a.stl\" scale=\"0 1 1\"/>",
+    ] {
+        let imported = imported(&geometry(shape), &Options::default());
+        read(&imported.yaml);
+        let told = imported.notes.join(" ");
+        assert!(
+            told.contains("visual shapes without size"),
+            "{shape}: {told}"
+        );
+        assert!(!imported.yaml.contains("mesh"), "{shape}");
+    }
+    // a mirrored file is seen, and so are the ends of a capsule without a middle
+    for shape in [
+        "<mesh filename=\"a.stl\" scale=\"-1 1 1\"/>",
+        "<capsule radius=\"0.1\" length=\"0\"/>",
+    ] {
+        let imported = imported(&geometry(shape), &Options::default());
+        read(&imported.yaml);
+        assert!(imported.yaml.contains("mesh"), "{shape}");
+        assert!(
+            !imported.notes.join(" ").contains("without size"),
+            "{shape}"
+        );
+    }
+}
+
 /// A joint of a type, with its content.
 fn joint(kind: &str, inside: &str) -> String {
     arm(
