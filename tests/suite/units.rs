@@ -398,3 +398,66 @@ fn derivatives_and_parameters_are_shown_in_units() {
         (&1.0.into(), &"g".into())
     );
 }
+
+/// Criteria that are formed of several outputs are in the unit of these, and so many runs keep their limits in any unit.
+#[test]
+fn studies_judge_alike_in_any_unit() {
+    let directory = tempfile::tempdir().unwrap();
+    let here = directory.path();
+    let bundled =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("models/applications/child-restraint.yaml");
+    let text = std::fs::read_to_string(bundled).unwrap();
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/models/data/");
+    let text = text.replace("../data/", data);
+    let judged = |name: &str, units: &str| {
+        let text = text.replacen("title:", &format!("units: {units}\ntitle:"), 1);
+        std::fs::write(here.join(format!("{name}.yaml")), text).unwrap();
+        let study = format!(
+            "model: {name}.yaml\ndesign: list\nrows: [{{ harness_slack: 0 }}, {{ harness_slack: 60 mm, belt_slack: 40 mm }}]\nresponses: [{{ criterion: all }}]\n"
+        );
+        std::fs::write(here.join("study.yaml"), study).unwrap();
+        call(
+            here,
+            &[
+                "sweep",
+                "study.yaml",
+                "--out",
+                name,
+                "--report",
+                "page.html",
+            ],
+            0,
+        );
+        let page = std::fs::read_to_string(here.join("page.html")).unwrap();
+        let counts: Vec<String> = page
+            .match_indices("\"within\":")
+            .map(|(at, found)| {
+                let digits = page[at + found.len()..]
+                    .chars()
+                    .take_while(char::is_ascii_digit);
+                digits.collect()
+            })
+            .collect();
+        let summary = json(&std::fs::read_to_string(here.join(name).join("summary.json")).unwrap());
+        let responses = summary["responses"].as_array().unwrap().clone();
+        (counts, responses)
+    };
+    let ((si, of_si), (shown, of_shown)) =
+        (judged("si", "SI"), judged("engineering", "engineering"));
+    assert!(si == shown && si.len() == of_si.len(), "{si:?} {shown:?}");
+    let of = |all: &[serde_json::Value], name: &str| {
+        let one = all.iter().find(|one| one["name"] == name).unwrap();
+        (
+            one["unit"].as_str().unwrap().to_owned(),
+            one["mean"].as_f64().unwrap(),
+        )
+    };
+    for (name, unit, size) in [("chest 3 ms", "g", 9.80665), ("head excursion", "mm", 1e-3)] {
+        let ((_, si), (found, value)) = (of(&of_si, name), of(&of_shown, name));
+        assert_eq!(found, unit);
+        assert!(
+            (value * size / si - 1.0).abs() < 1e-12,
+            "{name}: {value} {unit} for {si}"
+        );
+    }
+}

@@ -114,9 +114,13 @@ fn response(
         true => formed.what.unit(&first.unit),
         false => si(criterion.unit).to_owned(),
     };
-    let unit = match indices.as_slice() {
-        [_] => facts.unit_for(&si, first),
-        _ => UnitSystem::Si.unit(&si),
+    let shown = first.unit_shown();
+    let all_alike = indices
+        .iter()
+        .all(|index| facts.outputs[*index].unit_shown() == shown);
+    let unit = match all_alike {
+        true => facts.unit_for(&si, first),
+        false => UnitSystem::Si.unit(&si),
     };
     let response = Response {
         name: criterion.name.to_owned(),
