@@ -1,7 +1,7 @@
 //! The models that are part of the program, as texts.
 
 use bryant_generator::diagnostic::Diagnostics;
-use bryant_generator::model::{Model, Scene, scene};
+use bryant_generator::model::{Model, Scene};
 use std::io;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -68,7 +68,7 @@ pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
 pub fn scene(bundled: &Bundled) -> Result<Scene, Diagnostics> {
     let missing = || io::Error::from(io::ErrorKind::NotFound);
     let loader = |path: &Path| file(path).map(str::to_owned).ok_or_else(missing);
-    scene::read_str(bundled.file, bundled.yaml, &loader)
+    bryant_generator::read_scene_str(bundled.file, bundled.yaml, &loader)
 }
 
 #[cfg(test)]

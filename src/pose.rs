@@ -6,7 +6,7 @@
 //! States in Bryant angles may be in another chart; they must be converted to [quaternions](crate::orientation) first.
 
 use crate::evaluation::stop;
-use bryant_generator::joint::placement::placed;
+use bryant_generator::model::placement::placed;
 use bryant_generator::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, Given, Joint, Model, Number, Reference,
     Translation, Vehicle,

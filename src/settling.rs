@@ -462,7 +462,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("scene.yaml");
         std::fs::write(&path, text).unwrap();
-        let (scene, _) = model::read(&path).unwrap();
+        let (scene, _) = bryant_generator::read(&path).unwrap();
         let lists = Config::new().matrices(false).lists(&scene);
         let engine = bryant_engine::Engine::new(lists).unwrap();
         let model = engine.over::<f64>();

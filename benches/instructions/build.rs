@@ -12,7 +12,7 @@ fn main() {
     config.model(path).matrices(false).generate_or_report();
 
     let (model, _) =
-        bryant_generator::model::read(Path::new(path)).unwrap_or_else(|e| panic!("{e}"));
+        bryant_generator::read(Path::new(path)).unwrap_or_else(|e| panic!("{e}"));
     let lists = Config::new().matrices(false).lists(&model);
     let target = Target {
         lanes: false,

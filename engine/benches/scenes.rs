@@ -103,7 +103,7 @@ fn main() -> Result<(), Failed> {
 
 fn measure(scene: &Scene) -> Result<(), Failed> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let (model, _) = model::read(&root.join(scene.file))?;
+    let (model, _) = bryant_generator::read(&root.join(scene.file))?;
     let engine = Engine::new(Config::new().matrices(false).lists(&model))?;
     println!("{}", scene.name);
     single(&engine)?;

@@ -220,7 +220,7 @@ run: { duration: 1 s, every: 10 ms }
 
     fn engine() -> Engine {
         let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-        let (model, _) = model::read_str("swing.yaml", SWING, &none).unwrap();
+        let (model, _) = bryant_generator::read_str("swing.yaml", SWING, &none).unwrap();
         Engine::new(Config::new().lists(&model)).unwrap()
     }
 

@@ -7,7 +7,7 @@
 //! use bryant_runtime::{Dynamics, Family};
 //!
 //! let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-//! let (model, _) = bryant_generator::model::read_str("dummy15.yaml", yaml, &none)?;
+//! let (model, _) = bryant_generator::read_str("dummy15.yaml", yaml, &none)?;
 //! let engine = Engine::new(bryant_generator::Config::new().lists(&model))?;
 //! let dummy = engine.over::<f64>();
 //! let mut y = vec![0.0; dummy.info().state_length()];

@@ -11,7 +11,7 @@
 
 use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::effect;
-use bryant_generator::model::scene::{self, Scene};
+use bryant_generator::model::Scene;
 use bryant_generator::program;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -95,7 +95,7 @@ fn alone(file: &Path, effects: bool) -> Result<f64, Failed> {
 fn one(file: &Path, effects: bool) -> Result<(), Failed> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let begin = processor();
-    let scene = scene::read(file)?;
+    let scene = bryant_generator::read_scene(file)?;
     let read = processor();
     if effects {
         let variants = without_effects(&scene);

@@ -5,7 +5,7 @@
 
 use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::model::{self, Coordinates, Dimension, ForceKind, Model};
+use crate::model::{Coordinates, Dimension, ForceKind, Model};
 use crate::program::{self, Lists};
 use crate::target::{c, rust};
 use crate::{Error, dynamics};
@@ -158,7 +158,7 @@ impl Config {
         text: &str,
         loader: &dyn Fn(&Path) -> io::Result<String>,
     ) -> Result<Generated, Diagnostics> {
-        let (model, read) = model::read_str(name, text, loader)?;
+        let (model, read) = crate::read_str(name, text, loader)?;
         Ok(self.generated(Path::new(name), model, read))
     }
 
@@ -197,7 +197,7 @@ impl Config {
         let mut problems = Vec::new();
         let mut all = Vec::new();
         for path in self.paths()? {
-            match model::read(&path) {
+            match crate::read(&path) {
                 Ok((model, read)) => {
                     read.iter().for_each(|path| rerun_if_changed(path));
                     all.push(self.generated(&path, model, read));

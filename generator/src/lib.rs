@@ -37,7 +37,7 @@
 //! # Ok::<(), bryant_generator::Diagnostics>(())
 //! ```
 //!
-//! The steps in between are functions, too: [`model::read`] checks a description, [`dynamics::derive`] makes its
+//! The steps in between are functions, too: [`read`] checks a description, [`dynamics::derive`] makes its
 //! equations, [`target::rust::module`] writes them.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
@@ -56,8 +56,10 @@ pub mod law;
 #[doc(hidden)]
 pub mod method;
 pub mod model;
+pub mod model_text;
 mod names;
 pub mod program;
+pub mod read;
 #[doc(hidden)]
 pub mod rotation;
 pub mod target;
@@ -65,6 +67,7 @@ pub mod urdf;
 
 pub use config::{Config, Generated};
 pub use diagnostic::{Diagnostic, Diagnostics};
+pub use read::{read, read_scene, read_scene_str, read_str, read_without_sources};
 
 /// The reason why no source was generated.
 #[derive(thiserror::Error)]

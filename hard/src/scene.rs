@@ -1,7 +1,7 @@
 //! A scene to be simulated: a model as a user writes it.
-
 use bryant_generator::diagnostic::Diagnostics;
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use std::io;
 use std::path::Path;
 

@@ -6,7 +6,6 @@
 //! | one free element in the plane, uniform constant fields | the centre of gravity on a parabola, constant angular velocity |
 //!
 //! Nothing else may act: there is no other force, no switch and no vehicle.
-
 use super::elliptic::{amplitude, first_kind};
 use super::trajectory::Trajectory;
 use bryant_generator::model::{
@@ -316,7 +315,6 @@ impl Flight {
 mod tests {
     use super::super::elliptic::quarter_period;
     use super::*;
-    use bryant_generator::model::read_str;
 
     fn model(reference: &str, start: &str, rest: &str) -> Model {
         let text = format!(

@@ -61,7 +61,7 @@ mod tests {
              mass: 2 kg, cg: [0.1, -0.4], inertia: 0.05 }}\n{rest}run: {{ duration: 1 s, every: 0.1 s }}\n"
         );
         let none = |_: &std::path::Path| Err(std::io::Error::from(std::io::ErrorKind::NotFound));
-        bryant_generator::model::read_str("one.yaml", &text, &none)
+        bryant_generator::read_str("one.yaml", &text, &none)
             .unwrap_or_else(|e| panic!("{e}"))
             .0
     }

@@ -163,7 +163,7 @@ outputs: [{ name: swing, of: clock/rod, what: angle }]
 run: { duration: 0.1 s, every: 10 ms }
 ";
         let none = |_: &std::path::Path| Err(std::io::Error::from(std::io::ErrorKind::NotFound));
-        let model = model::read_str("clock.yaml", text, &none)
+        let model = bryant_generator::read_str("clock.yaml", text, &none)
             .expect("a model")
             .0;
         let engine = crate::equations::of(&model).expect("equations");

@@ -5,8 +5,8 @@ use super::outputs::{Outputs, Replacing};
 use super::terminal::Terminal;
 use crate::files;
 use crate::signature::{self, Kind};
-use bryant_generator::description::load::{ModelText, read_file, read_text, shown};
-use bryant_generator::model;
+use bryant_generator::description::load::{read_file, shown};
+use bryant_generator::model_text::{ModelText, read_text};
 use bryant_generator::urdf::{Base, Options};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -93,7 +93,7 @@ impl Arguments {
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
         // reads the model once, so that a body that no model can have is found here
-        model::read_str(&imported.name, &imported.text, &read_file)
+        bryant_generator::read_str(&imported.name, &imported.text, &read_file)
             .map_err(|found| Error::Model(imported.in_file(found)))?;
         match &self.out {
             None => terminal.print(&imported.text)?,

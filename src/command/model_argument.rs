@@ -3,9 +3,10 @@
 use super::Error;
 use super::terminal::Terminal;
 use crate::bundled::{self, Bundled};
-use bryant_generator::description::load::{beside, read_file, read_model, shown};
+use bryant_generator::description::load::{beside, read_file, shown};
 use bryant_generator::model::units::UnitSystem;
-use bryant_generator::model::{self, ForceKind, Model, Scene, scene};
+use bryant_generator::model::{ForceKind, Model, Scene};
+use bryant_generator::model_text::read_model;
 use std::path::{Path, PathBuf};
 
 /// A model that was found, read and resolved.
@@ -30,7 +31,7 @@ pub fn find(argument: &str) -> Result<Found, Error> {
             "there is no file {argument}\n  help: a model {bundled} is bundled: give its name without an ending; `bryant models {bundled} --copy .` writes its file here"
         )));
     }
-    let scene = scene::read(path).map_err(Error::Model)?;
+    let scene = bryant_generator::read_scene(path).map_err(Error::Model)?;
     let files = scene.read.clone();
     Ok(Found::of(scene, files))
 }
@@ -95,7 +96,7 @@ pub fn find_without_sources(argument: &str) -> Result<Model, Error> {
     }
     let path = path_of(argument)?;
     let read = read_model(path).map_err(Error::Model)?;
-    model::read_without_sources(&read.name, &read.text, &read_file)
+    bryant_generator::read_without_sources(&read.name, &read.text, &read_file)
         .map_err(|found| Error::Model(read.in_file(found)))
 }
 

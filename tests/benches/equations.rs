@@ -1,9 +1,9 @@
 //! Times of derivation and evaluation, with operation counts. `cargo bench` measures; `cargo test --bench equations` does each once, to see
 //! that it works.
-
 use bryant_generator::Config;
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::model::read;
+use bryant_generator::read;
+
 use bryant_generator::program;
 use bryant_runtime::{Model, ParameterSet, Vector};
 use std::hint::black_box;

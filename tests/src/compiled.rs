@@ -1,6 +1,6 @@
 //! Compiled equations behind function pointers, with the YAML that they were generated from.
-
-use bryant_generator::model::{Model, read};
+use bryant_generator::model::Model;
+use bryant_generator::read;
 use bryant_runtime::ParameterSet;
 use bryant_runtime::program::Entry;
 use std::path::Path;

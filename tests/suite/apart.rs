@@ -143,7 +143,7 @@ fn alone(name: &str) {
 
 /// A model with user functions, as read, and the files with the functions.
 fn read(path: &Path) -> (Model, Vec<(String, String)>) {
-    let model = scene::read(path).expect("a model").model;
+    let model = bryant_generator::read_scene(path).expect("a model").model;
     let mut sources = Vec::new();
     for force in &model.forces {
         if let ForceKind::User(user) = &force.kind
@@ -423,7 +423,7 @@ fn found_again() {
     let none = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
     let yaml = "model: none\ndimension: 2\nsystems:\n  - name: a\n    elements: [{ name: b, mass: 1, cg: [0, 0], inertia: 1 }]\n\
                 run: { duration: 1, every: 1 }\n";
-    let (model, _) = model::read_str("none.yaml", yaml, &none).expect("a model");
+    let (model, _) = bryant_generator::read_str("none.yaml", yaml, &none).expect("a model");
     assert!(UserForces::of(&model, Vec::new(), &mut |_| {}).is_ok_and(|forces| forces.is_none()));
 }
 

@@ -1,10 +1,10 @@
 //! Stops and locks of joints, flexion and torsion: against closed forms, planar models, and invariants of every torque.
-
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use bryant_runtime::program::Entry;
 use bryant_tests::models;
 use bryant_tests::runs::{Recording, run};

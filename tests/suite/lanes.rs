@@ -27,7 +27,7 @@ const LOCATED: f64 = 1e-13;
 /// The engine of a model of this crate, or of a bundled one.
 pub(crate) fn engine(path: &str) -> Engine {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    let (model, _) = model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+    let (model, _) = bryant_generator::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
     let lists = Config::new().matrices(false).lists(&model);
     Engine::new(lists).expect("it has no functions of a user")
 }

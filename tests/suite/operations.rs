@@ -1,16 +1,15 @@
 //! The number of operations in one evaluation of the accelerations, as `bryant check` prints it; a fused multiply-add counts as two.
 //!
 //! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the actual counts.
-
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::passes::factor::factor;
-use bryant_generator::model::{
-    Coordinates, Dimension, Model, Number, Parameter, Reference, read, read_str,
-};
+use bryant_generator::model::{Coordinates, Dimension, Model, Number, Parameter, Reference};
 use bryant_generator::program;
+use bryant_generator::read;
+use bryant_generator::read_str;
 use bryant_tests::reference::load;
 use bryant_tests::trees::{Random, Shape, choices, random_charts, random_state, random_tree};
 use std::path::Path;

@@ -1,5 +1,4 @@
 //! Texts for review by a person: equations small enough to be checked by hand, and the costs of the bundled models.
-
 use bryant::notation::Notation;
 use bryant_generator::Config;
 use bryant_generator::dynamics::{derive, derive_in_first_chart};
@@ -7,9 +6,10 @@ use bryant_generator::expression::NodeId;
 use bryant_generator::expression::count::{Count, Table};
 use bryant_generator::expression::print::{Names, text};
 use bryant_generator::model::{
-    BeltLength, FieldComponent, Force, ForceKind, JointTorque, Model, Number, Reference, read,
-    read_str,
+    BeltLength, FieldComponent, Force, ForceKind, JointTorque, Model, Number, Reference,
 };
+use bryant_generator::read;
+use bryant_generator::read_str;
 use std::path::Path;
 
 /// S by its upper triangle, r_s and r_k.

@@ -6,10 +6,10 @@ mod doubts;
 mod mounts;
 mod pages;
 mod refusals;
-
 use bryant::equations::{self, Engine};
 use bryant::simulation::{self, Recording};
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use bryant_runtime::program::Job;
 use std::io;
 use std::path::Path;

@@ -1,5 +1,4 @@
 //! Vehicles: bodies attached to them move relative to them as expected, wherever the vehicles are.
-
 use crate::given::{compare_with_lagrange, scaled, wave};
 use crate::motion::{close, run_with_bound};
 use bryant::evaluation::functions;
@@ -10,8 +9,9 @@ use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{
     Attachment, Body, Coordinates, Dimension, ElementId, FieldComponent, Given, Interpolate, Model,
-    Number, Reference, Translation, Vehicle, read_str,
+    Number, Reference, Translation, Vehicle,
 };
+use bryant_generator::read_str;
 use bryant_runtime::Model as _;
 use bryant_tests::models::{MODELS, stops, vehicle, vehicle_turned};
 use bryant_tests::trees::{Random, Shape, random_charts, random_state, random_tree};

@@ -72,7 +72,7 @@ const REPETITIONS: u32 = 20;
 /// A line of the table.
 fn compare<C: Compiled>(name: &str, path: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    let (model, _) = bryant_generator::model::read(&path).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) = bryant_generator::read(&path).unwrap_or_else(|e| panic!("{e}"));
     let lists = Config::new().matrices(false).lists(&model);
     let engine = Engine::new(lists).unwrap_or_else(|e| panic!("{e}"));
     let one = times::<C, f64>(&engine);

@@ -427,7 +427,8 @@ fn compare_models(first: usize) {
     let models = models();
     assert!(models.len() > 50, "{models:?}");
     for path in share(5, models.into_iter().skip(first).step_by(2)) {
-        let (model, _) = model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+        let (model, _) =
+            bryant_generator::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
         let mut config = Config::new();
         // S of a chain of a hundred elements takes ten million operations
         config.matrices(!path.to_string_lossy().contains("large"));
@@ -506,7 +507,8 @@ fn matrices_in_c_are_those_of_the_rust_text() {
     ];
     for (file, expected) in models {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{file}.yaml"));
-        let (model, _) = model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+        let (model, _) =
+            bryant_generator::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
         let source = Config::new().c_source(&model).unwrap();
         let engine = Engine::new(Config::new().lists(&model)).unwrap();
         let mut cases = cases(&engine);
@@ -545,7 +547,7 @@ fn the_program_of_the_page_runs() {
         .nth(1)
         .and_then(|rest| rest.split("```").next());
     let program = program.expect("a program on the page");
-    let (model, _) = model::read(&root.join("models/sled-pendulum.yaml")).unwrap();
+    let (model, _) = bryant_generator::read(&root.join("models/sled-pendulum.yaml")).unwrap();
     let source = Config::new().c_source(&model).unwrap();
     let run = |program: &str| {
         let directory = tempfile::tempdir().unwrap();
@@ -577,7 +579,7 @@ fn the_program_of_the_page_runs() {
 #[test]
 fn a_force_in_rust_has_no_c() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/skydiver.yaml");
-    let (model, _) = model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+    let (model, _) = bryant_generator::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
     let none = Config::new().c_source(&model).unwrap_err();
     assert_eq!(none.functions, ["drag"]);
 }

@@ -133,7 +133,8 @@ const SHAPES: [(&str, &str, &str, f64); 4] = [
 fn engine(scene: &str, law: &str) -> Engine {
     let text = scene.replace("LAW", law).replace("CURVE", CURVE);
     let loader = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let scene = model::scene::read_str("corner", &text, &loader).expect("scenes are right");
+    let scene =
+        bryant_generator::read_scene_str("corner", &text, &loader).expect("scenes are right");
     Engine::new(Config::new().lists(&scene.model)).expect("no functions")
 }
 

@@ -191,8 +191,8 @@ impl Scene {
 
 fn engine_of(text: &str) -> Engine {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) =
-        model::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let (model, _) = bryant_generator::read_str("scene.yaml", text, &none)
+        .unwrap_or_else(|e| panic!("{e}\n{text}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 

@@ -102,8 +102,8 @@ outputs:
 "
     );
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) =
-        model::read_str("law.yaml", &text, &none).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let (model, _) = bryant_generator::read_str("law.yaml", &text, &none)
+        .unwrap_or_else(|e| panic!("{e}\n{text}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 
@@ -504,7 +504,8 @@ run: {{ duration: 0.4 s, every: 0.05 s }}
 "
     );
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("flight.yaml", &text, &none).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) =
+        bryant_generator::read_str("flight.yaml", &text, &none).unwrap_or_else(|e| panic!("{e}"));
     let engine = Engine::new(Config::new().lists(&model)).expect("no functions");
     let machine = engine.over::<f64>();
     let settings = Settings {

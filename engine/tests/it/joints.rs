@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 fn engine_of(text: &str) -> Engine {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("scene.yaml", text, &none)
+    let (model, _) = bryant_generator::read_str("scene.yaml", text, &none)
         .unwrap_or_else(|problems| panic!("{problems}\n{text}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }

@@ -47,8 +47,8 @@ run: {{ duration: 1 s, every: 0.1 s }}
 "
     );
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) =
-        model::read_str("memory.yaml", &text, &none).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let (model, _) = bryant_generator::read_str("memory.yaml", &text, &none)
+        .unwrap_or_else(|e| panic!("{e}\n{text}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 

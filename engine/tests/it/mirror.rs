@@ -119,8 +119,8 @@ outputs:
 #[test]
 fn mechanisms_whose_sides_are_mirror_images_move_so() {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) =
-        model::read_str("mechanism.yaml", MECHANISM, &none).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) = bryant_generator::read_str("mechanism.yaml", MECHANISM, &none)
+        .unwrap_or_else(|e| panic!("{e}"));
     let engine = Engine::new(Config::new().lists(&model)).expect("an engine");
     let machine = engine.over::<f64>();
     let mut y = vec![0.0; machine.info().state_length()];
@@ -183,7 +183,8 @@ fn mechanisms_whose_sides_are_mirror_images_move_so() {
 #[test]
 fn what_starts_as_mirror_images_accelerates_so() {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("twins.yaml", SCENE, &none).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) =
+        bryant_generator::read_str("twins.yaml", SCENE, &none).unwrap_or_else(|e| panic!("{e}"));
     let engine = Engine::new(Config::new().lists(&model)).expect("an engine");
     let machine = engine.over::<f64>();
     let mut y = vec![0.0; machine.info().state_length()];

@@ -79,8 +79,8 @@ impl Seen {
             names.push((*name).to_owned());
         }
         let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-        let (model, _) =
-            model::read_str("rider.yaml", &text, &none).unwrap_or_else(|e| panic!("{e}"));
+        let (model, _) = bryant_generator::read_str("rider.yaml", &text, &none)
+            .unwrap_or_else(|e| panic!("{e}"));
         let engine = Engine::new(Config::new().lists(&model)).expect("an engine");
         Seen { engine, names }
     }
@@ -377,7 +377,8 @@ fn joints_transmit_the_moment_that_turns_what_they_carry() {
 /// Outputs of a scene at its start, by name.
 fn at_start(text: &str) -> Vec<(String, f64)> {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) =
+        bryant_generator::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}"));
     let engine = Engine::new(Config::new().lists(&model)).expect("an engine");
     let machine = engine.over::<f64>();
     let mut y = vec![0.0; machine.info().state_length()];

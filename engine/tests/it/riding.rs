@@ -11,7 +11,7 @@ const TOLERANCE: f64 = 1e-10;
 /// Times and outputs of a run.
 fn run(text: &str) -> Vec<(f64, Vec<f64>)> {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("scene.yaml", text, &none)
+    let (model, _) = bryant_generator::read_str("scene.yaml", text, &none)
         .unwrap_or_else(|problems| panic!("{problems}\n{text}"));
     let engine = Engine::new(Config::new().lists(&model)).expect("no functions");
     let machine = engine.over::<f64>();

@@ -34,7 +34,8 @@ const G: f64 = 9.81;
 
 fn engine(text: &str) -> Engine {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) =
+        bryant_generator::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 

@@ -47,7 +47,8 @@ run: { duration: 4 s, every: 4 s }
 
 fn engine_of(text: &str) -> Engine {
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) = model::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}"));
+    let (model, _) =
+        bryant_generator::read_str("scene.yaml", text, &none).unwrap_or_else(|e| panic!("{e}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 

@@ -31,8 +31,8 @@ run: {{ duration: 2 s, every: 0.05 s }}
         (2.0 * std::f64::consts::PI).powi(2)
     );
     let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-    let (model, _) =
-        model::read_str("waiting.yaml", &text, &none).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let (model, _) = bryant_generator::read_str("waiting.yaml", &text, &none)
+        .unwrap_or_else(|e| panic!("{e}\n{text}"));
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 

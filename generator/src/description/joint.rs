@@ -1,19 +1,66 @@
 //! The joint of an element as written: a word, one joint, or a list of joints from the carrier outwards. What stands for which kind of joint is said
 //! by the files of [kinds](crate::joint).
 
+use super::language::Language;
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{
-    Key, Misfit, Problems, Record, Shape, check_record, check_word, misfit, of_key, record,
-};
+use super::shape::{Key, Misfit, Problems, Shape, check_keys, check_word, misfit, of_key, record};
 use super::tree::Kind;
-use crate::joint::written::{self, Spelling};
-use crate::joint::{SPELLINGS, WORDS};
 use serde_yaml::Value;
 use std::collections::BTreeMap;
 
 /// The words for an axis: one of the frame's own, or its opposite.
 pub const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
+
+/// The coordinate of a degree of freedom: an angle, or a length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// \[rad\]
+    Angle,
+    /// \[m\]
+    Length,
+}
+
+impl Coordinate {
+    /// The default name of a degree of freedom with this kind of coordinate.
+    pub fn name(self) -> &'static str {
+        match self {
+            Coordinate::Angle => "angle",
+            Coordinate::Length => "position",
+        }
+    }
+
+    /// SI units of the coordinate and of its rate.
+    pub fn units(self) -> [&'static str; 2] {
+        match self {
+            Coordinate::Angle => ["rad", "rad/s"],
+            Coordinate::Length => ["m", "m/s"],
+        }
+    }
+}
+
+/// A key of a joint that stands for degrees of freedom.
+#[derive(Clone, Copy, Debug)]
+pub struct JointKey {
+    /// The key. Its value is one axis, or several.
+    pub key: Key,
+    /// Further keys that only this key has.
+    pub keys: &'static [Key],
+    /// Further keys whose numbers determine whether the joint is left- or right-handed: in a mirror image they change
+    /// sign.
+    pub handed: &'static [&'static str],
+    /// The coordinates of the degrees of freedom for which the key stands, from the carrier outwards.
+    pub coordinates: &'static [Coordinate],
+}
+
+/// A word for a joint that needs no keys.
+#[derive(Clone, Copy, Debug)]
+pub struct JointWord {
+    /// The word itself.
+    pub word: &'static str,
+    /// True if the joint has axes, which a mirror image would reverse.
+    pub has_axes: bool,
+}
 
 /// A joint with freedoms of its own.
 #[derive(Clone, Debug)]
@@ -31,12 +78,6 @@ pub struct Freedom {
 }
 
 impl Freedom {
-    /// The spellings whose keys are there: one where it is right.
-    pub(crate) fn spellings(&self) -> Vec<&'static Spelling> {
-        let there = |spelling: &&Spelling| self.has(spelling.key.name);
-        SPELLINGS.iter().filter(there).collect()
-    }
-
     /// Whether a key of a kind is there.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.of_kind.contains_key(key)
@@ -48,25 +89,28 @@ impl Freedom {
     }
 }
 
-const COUNT: usize = written::KEYS.len() + 4;
+/// The name of a joint of one or several degrees of freedom in messages.
+const TITLE: &str = "a joint";
 
-/// The keys of a joint, those of kinds in the middle.
-const KEYS: [Key; COUNT] = {
-    let mut keys = [written::key::<String>("name"); COUNT];
-    let mut i = 0;
-    while i < written::KEYS.len() {
-        keys[i + 1] = written::KEYS[i];
-        i += 1;
-    }
-    keys[i + 1] = written::key::<Quantity>("zero");
-    keys[i + 2] = written::key::<Quantity>("armature");
-    keys[i + 3] = written::key::<Follows>("follows");
-    keys
-};
+/// The keys of a joint with the title of its record; those of kinds are in the middle.
+pub(super) fn keys(language: &Language) -> (&'static str, Vec<Key>) {
+    let kinds = language.joint_keys.iter();
+    let keys = [Key::optional::<String>("name")].into_iter();
+    let keys = keys
+        .chain(kinds.clone().map(|kind| kind.key))
+        .chain(kinds.flat_map(|kind| kind.keys.iter().copied()))
+        .chain([
+            Key::optional::<Quantity>("zero"),
+            Key::optional::<Quantity>("armature"),
+            Key::optional::<Follows>("follows"),
+        ]);
+    (TITLE, keys.collect())
+}
 
-impl Record for Freedom {
-    const TITLE: &'static str = "a joint";
-    const KEYS: &'static [Key] = &KEYS;
+/// Reports what cannot be read as a joint.
+fn check_freedom(at: At<'_>, problems: &Problems) {
+    let (title, keys) = keys(problems.language);
+    check_keys(title, &keys, at, problems);
 }
 
 impl Shape for Freedom {
@@ -78,11 +122,11 @@ impl Shape for Freedom {
             ));
             return;
         }
-        check_record::<Freedom>(at, problems);
+        check_freedom(at, problems);
     }
 
     fn read(value: &Value) -> Result<Self, Misfit> {
-        let entries = (value.as_mapping()).ok_or_else(|| misfit(value, Self::TITLE))?;
+        let entries = (value.as_mapping()).ok_or_else(|| misfit(value, TITLE))?;
         let of_all = ["name", "zero", "armature", "follows"];
         let texts = entries
             .iter()
@@ -169,9 +213,10 @@ impl Shape for Joint {
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::List(_) => Vec::<Freedom>::check(at, problems),
-            Kind::Map(_) => check_record::<Freedom>(at, problems),
+            Kind::Map(_) => check_freedom(at, problems),
             Kind::Scalar { .. } => {
-                let words: Vec<&str> = WORDS.iter().map(|word| word.word).collect();
+                let words = problems.language.joint_words.iter();
+                let words: Vec<&str> = words.map(|word| word.word).collect();
                 check_word(at, &words, problems);
             }
         }

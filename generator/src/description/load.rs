@@ -6,6 +6,7 @@ use super::curve::{self, Curve};
 use super::expand::instance::rename;
 use super::expand::{Known, expand};
 use super::force::Force;
+use super::language::Language;
 use super::mend::{Lost, mend, take_out};
 use super::mesh::Meshes;
 use super::output::Column;
@@ -15,7 +16,8 @@ use super::person;
 use super::place::At;
 use super::run::Run;
 use super::shape::{Misfit, Named, Problems, Record, Shape, misfit, record, words};
-use super::short::{Include, Mirror, Surface};
+use super::short::{Include, Mirror};
+use super::surface::Surface;
 use super::switch::Switch;
 use super::system::System;
 use super::table::Table;
@@ -23,7 +25,6 @@ use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
 use super::what;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
-use crate::urdf::{self, Imported};
 use serde_yaml::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -258,109 +259,6 @@ pub fn read_file(path: &Path) -> io::Result<String> {
     })
 }
 
-/// The text of a model, of a file.
-pub struct ModelText {
-    /// The file, for messages.
-    pub name: String,
-    /// YAML: of a URDF file what it was imported as.
-    pub text: String,
-    /// Of a URDF file: its own text, and how it was imported.
-    urdf: Option<(String, Imported)>,
-}
-
-impl ModelText {
-    /// A URDF file as a model.
-    ///
-    /// # Errors
-    /// Every problem of it.
-    pub fn of_urdf(
-        name: String,
-        text: String,
-        options: &urdf::Options,
-    ) -> Result<Self, Diagnostics> {
-        let imported = urdf::import(&name, &text, options)?;
-        Ok(ModelText {
-            name,
-            text: imported.yaml.clone(),
-            urdf: Some((text, imported)),
-        })
-    }
-
-    /// What to know of how it was imported, a sentence each; nothing of a YAML file.
-    pub fn notes(&self) -> &[String] {
-        match &self.urdf {
-            Some((_, imported)) => &imported.notes,
-            None => &[],
-        }
-    }
-
-    /// Whether lines of the text are lines of the file.
-    pub fn is_of_file(&self) -> bool {
-        self.urdf.is_none()
-    }
-
-    /// The line of the file that a line of the text was made of.
-    pub fn line_of_file(&self, line: usize) -> Option<usize> {
-        match &self.urdf {
-            Some((_, imported)) => imported.origin(line).map(|place| place.0),
-            None => Some(line),
-        }
-    }
-
-    /// Problems that were found in the text, as problems of the file.
-    pub fn in_file(&self, mut found: Diagnostics) -> Diagnostics {
-        let Some((text, imported)) = &self.urdf else {
-            return found;
-        };
-        for problem in &mut found.problems {
-            let (message, help) = (problem.message.clone(), problem.help.clone());
-            *problem = match imported.origin(problem.line) {
-                Some(place) => Diagnostic::at(&self.name, text, place, message, help),
-                None => Diagnostic::of_file(&self.name, message, help),
-            };
-        }
-        found.problems.sort_by_key(|p| (p.line, p.column));
-        found
-    }
-}
-
-/// The text of a model: a YAML file, or what a URDF file is as YAML. A file is URDF by its content, XML, or by its name, `.urdf`.
-///
-/// # Errors
-/// A file that cannot be read; every problem of a URDF file.
-pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
-    let (name, text) = (shown(path), read_text(path)?);
-    let is_named_urdf = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("urdf"));
-    match is_named_urdf || urdf::is_xml(&text) {
-        true => ModelText::of_urdf(name, text, &urdf::Options::default()),
-        false => Ok(ModelText {
-            name,
-            text,
-            urdf: None,
-        }),
-    }
-}
-
-/// The text of a file: UTF-8, or, of XML, what it says itself.
-///
-/// # Errors
-/// A file that cannot be read.
-pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
-    let text = read_file(path).or_else(|error| {
-        let bytes = match error.kind() {
-            io::ErrorKind::InvalidData => read_bytes(path, MAX_BYTES as u64)?,
-            _ => return Err(error),
-        };
-        urdf::decoded(&bytes).ok_or(error)
-    });
-    text.map_err(|error| {
-        let (message, help) = unreadable(&shown(path), &error);
-        Diagnostic::of_file(shown(path), message, help).into()
-    })
-}
-
 /// Reads a file of at most so many bytes; a longer one is an error.
 pub fn read_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     use io::Read;
@@ -405,6 +303,7 @@ pub fn unreadable(path: &str, error: &io::Error) -> (String, &'static str) {
 /// # Errors
 /// All problems, where so little is left without what is wrong that nothing can be said of it; other problems are part of the result.
 pub fn load(
+    language: &'static Language,
     name: &str,
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
@@ -413,7 +312,7 @@ pub fn load(
     let mut reader = Reader {
         loader,
         with_sources,
-        problems: Problems::default(),
+        problems: Problems::new(language),
         files: Vec::new(),
         tables: BTreeMap::new(),
         sources: BTreeMap::new(),
@@ -527,7 +426,7 @@ impl Reader<'_> {
         let before = self.problems.count();
         T::check(source.at(), &self.problems);
         if self.problems.count() > before {
-            match mend(&source, T::check, &mut self.lost) {
+            match mend(&source, self.problems.language, T::check, &mut self.lost) {
                 Some(rest) => source.root = rest,
                 None => {
                     self.unread = true;
@@ -540,7 +439,8 @@ impl Reader<'_> {
 
     /// Writes out the short forms of a file; items for which this is not possible are reported and taken out.
     fn expand(&mut self, source: &mut Source) {
-        let mut problems = Problems::default();
+        let language = self.problems.language;
+        let mut problems = Problems::new(language);
         let mut known = self.known.clone();
         let mut root = expand(source, self.planar, &mut known, &problems);
         let (mut found, _) = problems.into_parts();
@@ -556,7 +456,7 @@ impl Reader<'_> {
                 self.lost.add(source, problem);
             }
             take_out(&mut source.root, &found);
-            problems = Problems::default();
+            problems = Problems::new(language);
             known = self.known.clone();
             root = expand(source, self.planar, &mut known, &problems);
             (found, _) = problems.into_parts();

@@ -2,6 +2,7 @@
 //!
 //! What is taken out may be missed elsewhere. [`Lost`] knows its names and places, and tells such consequences from mistakes.
 
+use super::language::Language;
 use super::place::At;
 use super::shape::Problems;
 use super::tree::{Entry, Kind, MAX_DEPTH, Node, Source, Span};
@@ -200,7 +201,12 @@ fn mentions(node: &Node, words: &[String]) -> bool {
 }
 
 /// The tree of a source without what `check` reports; `None` if so little is left that nothing can be said of it.
-pub fn mend(source: &Source, check: fn(At<'_>, &Problems), lost: &mut Lost) -> Option<Node> {
+pub fn mend(
+    source: &Source,
+    language: &'static Language,
+    check: fn(At<'_>, &Problems),
+    lost: &mut Lost,
+) -> Option<Node> {
     let mut rest = Source {
         name: source.name.clone(),
         text: source.text.clone(),
@@ -208,7 +214,7 @@ pub fn mend(source: &Source, check: fn(At<'_>, &Problems), lost: &mut Lost) -> O
     };
     // each round takes out a level of the tree at most
     for _ in 0..2 * MAX_DEPTH {
-        let problems = Problems::default();
+        let problems = Problems::new(language);
         check(rest.at(), &problems);
         let (wrong, corrections) = problems.into_parts();
         if wrong.is_empty() {

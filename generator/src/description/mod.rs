@@ -18,6 +18,7 @@ pub mod expand;
 pub mod expression;
 pub mod force;
 pub mod joint;
+pub mod language;
 pub mod load;
 pub mod long;
 pub mod mend;
@@ -33,6 +34,7 @@ pub mod run;
 pub mod shape;
 pub mod short;
 pub mod slip;
+pub mod surface;
 pub mod switch;
 pub mod system;
 pub mod table;
@@ -45,12 +47,13 @@ pub mod what;
 pub use bryant_table::unit;
 
 use crate::law::LAWS;
+use language::Language;
 use shape::{Key, Record};
 
 /// Every record of the language: what it is called and its keys, in the order of the reference page.
-pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
-    fn of<R: Record>() -> (&'static str, &'static [Key]) {
-        (R::TITLE, R::KEYS)
+pub fn vocabulary(language: &Language) -> Vec<(&'static str, Vec<Key>)> {
+    fn of<R: Record>() -> (&'static str, Vec<Key>) {
+        (R::TITLE, R::KEYS.to_vec())
     }
     let mut all = vec![
         of::<load::Model>(),
@@ -74,10 +77,11 @@ pub fn vocabulary() -> Vec<(&'static str, &'static [Key])> {
         of::<element::Element>(),
         of::<element::Anatomy>(),
         of::<mesh::Mesh>(),
-        of::<joint::Freedom>(),
+        joint::keys(language),
         of::<joint::Follows>(),
     ];
-    all.extend(LAWS.iter().flat_map(|law| (law.records)()));
+    let laws = LAWS.iter().flat_map(|law| (law.records)());
+    all.extend(laws.map(|(title, keys)| (title, keys.to_vec())));
     all.extend([
         of::<switch::Switch>(),
         of::<switch::Trigger>(),

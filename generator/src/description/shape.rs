@@ -5,6 +5,7 @@
 //! values. What passes the check can be read. Values are read by this trait and not by serde, whose code for so many records would be a tenth of the
 //! crate.
 
+use super::language::Language;
 use super::mend::Correction;
 use super::place::At;
 use super::slip;
@@ -17,8 +18,9 @@ use std::cell::{Cell, RefCell};
 const MAX_PROBLEMS: usize = 1000;
 
 /// Problems found so far.
-#[derive(Debug, Default)]
 pub struct Problems {
+    /// The kinds of joints and forces that the texts may name.
+    pub language: &'static Language,
     /// The first, each once.
     kept: RefCell<Vec<Diagnostic>>,
     reported: Cell<usize>,
@@ -27,6 +29,16 @@ pub struct Problems {
 }
 
 impl Problems {
+    /// No problems yet, in texts of this language.
+    pub fn new(language: &'static Language) -> Self {
+        Problems {
+            language,
+            kept: RefCell::default(),
+            reported: Cell::default(),
+            corrections: RefCell::default(),
+        }
+    }
+
     /// One more; kept unless it is known already, or there are too many.
     pub fn add(&self, problem: Diagnostic) {
         self.reported.set(self.reported.get() + 1);
@@ -113,6 +125,17 @@ pub struct Key {
     pub optional: bool,
     /// Checks its value.
     pub check: fn(At<'_>, &Problems),
+}
+
+impl Key {
+    /// A key that may be left out, with a value of this shape.
+    pub const fn optional<T: Shape>(name: &'static str) -> Key {
+        Key {
+            name,
+            optional: true,
+            check: T::check,
+        }
+    }
 }
 
 /// A mapping with known keys.
@@ -217,7 +240,7 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
 }
 
 /// [`check_record`] of the record with this title and these keys.
-fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems) {
+pub fn check_keys(title: &str, all: &[Key], at: At<'_>, problems: &Problems) {
     let Kind::Map(entries) = &at.node.kind else {
         let keys: Vec<String> = all
             .iter()
@@ -281,7 +304,7 @@ fn check_keys(title: &str, all: &'static [Key], at: At<'_>, problems: &Problems)
 /// Reports a key that is none; what it was meant to be.
 fn unknown_key(
     title: &str,
-    all: &'static [Key],
+    all: &[Key],
     at: At<'_>,
     entry: &Entry,
     before: Option<&Entry>,

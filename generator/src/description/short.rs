@@ -5,8 +5,6 @@ use super::place::At;
 use super::quantity::Quantity;
 use super::shape::{Misfit, Problems, Record, Shape, check_record, misfit, record, words};
 use super::tree::Kind;
-use crate::law::contact::keys::{Ellipsoid, Plane};
-use crate::law::joint::keys::LongAxis;
 use serde_yaml::Value;
 use std::ops::Deref;
 
@@ -240,27 +238,14 @@ impl<R: Record + Shape> Shape for ByName<R> {
     }
 }
 
-/// A named surface.
-#[derive(Clone, Debug)]
-pub enum Surface {
-    /// An ellipsoid.
-    Ellipsoid(Ellipsoid),
-    /// A plane.
-    Plane(Plane),
-}
-
-impl Shape for Surface {
-    fn check(at: At<'_>, problems: &Problems) {
-        match at.node.get("normal") {
-            Some(_) => check_record::<Plane>(at, problems),
-            None => check_record::<Ellipsoid>(at, problems),
-        }
-    }
-
-    fn read(value: &Value) -> Result<Self, Misfit> {
-        match value.get("normal") {
-            Some(_) => Plane::read(value).map(Surface::Plane),
-            None => Ellipsoid::read(value).map(Surface::Ellipsoid),
-        }
+words! {
+    /// A local axis.
+    LongAxis {
+        /// The local x axis.
+        X = "x",
+        /// The local y axis.
+        Y = "y",
+        /// The local z axis.
+        Z = "z",
     }
 }

@@ -165,7 +165,7 @@ fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'
     for (freedom, &q) in freedoms.iter().zip(q) {
         let axis = vector(graph, &freedom.axis);
         let position = q + number(graph, &freedom.zero);
-        let advance = freedom.kind.advance().map_or(zero, |h| number(graph, &h));
+        let advance = freedom.kind.advance().map_or(zero, |h| number(graph, h));
         at = at + turn.times((advance * position) * axis);
         if freedom.kind.turns() {
             let (sine, cosine) = (position.sin(), position.cos());

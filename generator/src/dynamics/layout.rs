@@ -11,6 +11,7 @@ use crate::expression::{Expr, Graph};
 pub use crate::joint::ball::Orientation;
 use crate::joint::equations::{self, Start, Variables};
 use crate::joint::{ball, free};
+use crate::model::joint::directions;
 use crate::model::{Dimension, ElementId, Freedom, Joint, Model, Reference};
 use std::ops::Range;
 
@@ -66,7 +67,7 @@ impl Layout {
     /// The layout of a model.
     pub fn of(model: &Model) -> Self {
         let orientation = Orientation::of(model.dimension, model.coordinates);
-        let directions = free::directions(model.dimension == Dimension::Plane);
+        let directions = directions(model.dimension == Dimension::Plane);
         let (mut coordinates, mut velocities) = (Vec::new(), Vec::new());
         let mut systems = Vec::new();
         let mut charts = 0;

@@ -13,19 +13,22 @@
 //! P is the constant matrix of the [chart] in which the angles are.   \[MADYMO 1980\]
 
 use super::equations::{Start, Variables};
-use super::written::Word;
-use super::{Joint, Kind, hinge};
+use crate::description::joint::{Coordinate, JointWord};
 use crate::dynamics::chart;
 use crate::dynamics::kinematics::ElementMotion;
 use crate::dynamics::numbers::{bryant, quaternion_of_bryant, rotation_of_quaternion, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
+use crate::model::Joint;
+use crate::model::resolve::joint::Word;
 use crate::model::{Coordinates, Dimension, Element};
 
 /// `joint: ball`, the default.
 pub(crate) const WORD: Word = Word {
-    word: "ball",
-    has_axes: false,
+    written: JointWord {
+        word: "ball",
+        has_axes: false,
+    },
     joint: |resolver, at| {
         if resolver.planar {
             resolver.problems.add(at.problem(
@@ -59,14 +62,9 @@ impl Orientation {
     }
 }
 
-/// The axes of the frame about which the element can turn: in the plane only y.
-pub(crate) fn axes(planar: bool) -> &'static [usize] {
-    if planar { &[1] } else { &[0, 1, 2] }
-}
-
 /// Names and units of q and v for an orientation.
 pub(crate) fn variables(orientation: Orientation) -> Variables {
-    let [angle, rate] = hinge::Hinge.coordinate().units();
+    let [angle, rate] = Coordinate::Angle.units();
     let (coordinates, unit, velocities): (&[&str], _, &[&str]) = match orientation {
         Orientation::Angle => (&["phi"], angle, &["omega"]),
         Orientation::Quaternion => (&["qw", "qx", "qy", "qz"], "", &["wx", "wy", "wz"]),

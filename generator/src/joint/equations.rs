@@ -2,10 +2,10 @@
 //! motion itself is in the file of each joint.
 
 use super::ball::{self, Orientation};
-use super::{Freedom, Joint};
 use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Graph};
-use crate::model::{Dimension, Element};
+use crate::model::joint::axes_of_rotation;
+use crate::model::{Dimension, Element, Freedom, Joint};
 
 /// Names and SI units of the coordinates and velocities of a joint.
 pub(crate) struct Variables {
@@ -46,7 +46,7 @@ impl Joint {
     /// The number of the joint's velocities.
     pub fn velocities(&self, dimension: Dimension) -> usize {
         match self {
-            Joint::Ball => ball::axes(dimension == Dimension::Plane).len(),
+            Joint::Ball => axes_of_rotation(dimension == Dimension::Plane).len(),
             Joint::Freedoms(freedoms) => freedoms.iter().filter(|f| f.is_own()).count(),
         }
     }

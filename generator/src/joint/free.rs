@@ -5,20 +5,15 @@
 //! In the plane the origin moves along x and z.
 
 use super::equations::{Start, Variables};
-use super::{Kind, slider};
+use crate::description::joint::Coordinate;
 use crate::dynamics::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Number, System};
 
-/// The absolute axes along which the origin moves.
-pub(crate) fn directions(planar: bool) -> &'static [usize] {
-    if planar { &[0, 2] } else { &[0, 1, 2] }
-}
-
 /// Names and units of x and ẋ.
 pub(crate) fn variables(directions: &[usize]) -> Variables {
-    let [length, speed] = slider::Slider.coordinate().units();
+    let [length, speed] = Coordinate::Length.units();
     let axes = || directions.iter().map(|&d| ["x", "y", "z"][d]);
     Variables {
         coordinates: axes().map(|axis| (axis.to_owned(), length)).collect(),

@@ -6,29 +6,28 @@
 //!
 //! H = (e × r, e),   ε ← ε + ω × e q̇,   work of a wrench (f, n) about the origin: H · (f, n) = e · (n + r × f)
 
-use super::written::{Made, Spelling, Word, key};
-use super::{Coordinate, Joint, Kind};
-use crate::description::joint::Axis;
-use crate::model::Number;
-use serde::Serialize;
-
-/// A degree of freedom that turns.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Hinge;
+use crate::description::joint::{Axis, Coordinate, JointKey, JointWord};
+use crate::description::shape::Key;
+use crate::model::resolve::joint::{Made, Spelling, Word};
+use crate::model::{FreedomKind, Joint};
 
 /// `hinge: y`
 pub(crate) const SPELLING: Spelling = Spelling {
-    key: key::<Axis>("hinge"),
-    keys: &[],
-    handed: &[],
-    coordinates: &[Coordinate::Angle],
-    read: |reader| Some(vec![Made::new(Hinge, reader.turning()?)]),
+    written: JointKey {
+        key: Key::optional::<Axis>("hinge"),
+        keys: &[],
+        handed: &[],
+        coordinates: &[Coordinate::Angle],
+    },
+    read: |reader| Some(vec![Made::new(FreedomKind::HINGE, reader.turning()?)]),
 };
 
 /// `joint: hinge` in the plane: like a [ball](super::ball) in space, with an absolute orientation.
 pub(crate) const WORD: Word = Word {
-    word: "hinge",
-    has_axes: false,
+    written: JointWord {
+        word: "hinge",
+        has_axes: false,
+    },
     joint: |resolver, at| {
         if !resolver.planar {
             resolver.problems.add(at.problem(
@@ -39,13 +38,3 @@ pub(crate) const WORD: Word = Word {
         Joint::Ball
     },
 };
-
-impl Kind for Hinge {
-    fn coordinate(&self) -> Coordinate {
-        Coordinate::Angle
-    }
-
-    fn advance(&self) -> Option<Number> {
-        None
-    }
-}

@@ -41,102 +41,28 @@
 //! `docs/reference.md`, `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
 
 pub(crate) mod ball;
-mod coordinate;
 pub(crate) mod equations;
-mod follows;
 pub(crate) mod free;
-pub mod hinge;
+mod hinge;
 mod list;
-pub mod placement;
 pub(crate) mod prescribed;
-pub mod screw;
-pub mod slider;
+mod screw;
+mod slider;
 pub(crate) mod twist;
 mod weld;
-pub(crate) mod written;
 
-pub use coordinate::Coordinate;
-pub use follows::Follows;
-pub(crate) use follows::{couple, start_followers};
-pub(crate) use list::{freedoms_at_start, joint_of};
+use crate::description::joint::{JointKey, JointWord};
+use crate::model::resolve::joint::{Spelling, Word};
 
-use crate::model::Number;
-use serde::Serialize;
-use std::fmt;
-use std::ops::{Deref, DerefMut};
-use written::{Spelling, Word};
-
-/// The motion of a degree of freedom about and along its axis.
-pub trait Kind: fmt::Debug {
-    /// The kind of its coordinate.
-    fn coordinate(&self) -> Coordinate;
-
-    /// The distance that it slides along its axis per unit of its coordinate: \[m/rad\] for an angle, 1 for a length;
-    /// `None` if it does not slide.
-    fn advance(&self) -> Option<Number>;
-
-    /// The numbers of this kind, such as a pitch.
-    fn numbers_mut(&mut self) -> Vec<&mut Number> {
-        Vec::new()
-    }
-
-    /// True if it turns about its axis, by its coordinate.
-    fn turns(&self) -> bool {
-        self.coordinate() == Coordinate::Angle
-    }
-
-    /// True if it slides along its axis.
-    fn slides(&self) -> bool {
-        self.advance().is_some()
-    }
-}
-
-/// Registers the kinds of degrees of freedom, each a struct in a file of its own: the variants of [`FreedomKind`].
-macro_rules! kinds {
-    ($($(#[$meta:meta])* $file:ident::$kind:ident,)*) => {
-        /// What a degree of freedom does along or about its axis.
-        #[derive(Clone, Debug, PartialEq, Serialize)]
-        pub enum FreedomKind {
-            $($(#[$meta])* $kind($file::$kind),)*
-        }
-
-        $(impl From<$file::$kind> for FreedomKind {
-            fn from(kind: $file::$kind) -> Self {
-                FreedomKind::$kind(kind)
-            }
-        })*
-
-        impl Deref for FreedomKind {
-            type Target = dyn Kind;
-            fn deref(&self) -> &Self::Target {
-                match self {
-                    $(FreedomKind::$kind(kind) => kind,)*
-                }
-            }
-        }
-
-        impl DerefMut for FreedomKind {
-            fn deref_mut(&mut self) -> &mut Self::Target {
-                match self {
-                    $(FreedomKind::$kind(kind) => kind,)*
-                }
-            }
-        }
-
-        /// The keys of a joint that stand for degrees of freedom, in the order of the reference page.
-        pub(crate) const SPELLINGS: &[Spelling] =
-            &[$($file::SPELLING,)* list::UNIVERSAL, list::CYLINDER, list::PLANAR];
-    };
-}
-
-kinds! {
-    /// A hinge, which turns.
-    hinge::Hinge,
-    /// A slider.
-    slider::Slider,
-    /// A screw, which turns and slides.
-    screw::Screw,
-}
+/// The keys of a joint that stand for degrees of freedom, in the order of the reference page.
+pub(crate) const SPELLINGS: &[Spelling] = &[
+    hinge::SPELLING,
+    slider::SPELLING,
+    screw::SPELLING,
+    list::UNIVERSAL,
+    list::CYLINDER,
+    list::PLANAR,
+];
 
 /// The words for joints that need no keys.
 pub(crate) const WORDS: &[Word] = &[
@@ -147,68 +73,24 @@ pub(crate) const WORDS: &[Word] = &[
     list::FREE,
 ];
 
-/// The motion that the joint of an element allows.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub enum Joint {
-    /// Free rotation about the joint: a ball in space, a hinge about y in the plane. The orientation is absolute.
-    Ball,
-    /// Degrees of freedom, from the carrier outwards. A weld has none.
-    Freedoms(Vec<Freedom>),
-}
-
-/// One degree of freedom.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Freedom {
-    /// Name, unique in its joint; with underscores in place of dashes, a Rust identifier.
-    pub name: String,
-    /// The kind of motion.
-    pub kind: FreedomKind,
-    /// The axis: a unit vector in the frame of the carrier, with all degrees of freedom of the joint at 0.
-    pub axis: [Number; 3],
-    /// The constant that is added to the coordinate \[rad\] or \[m\].
-    pub zero: Number,
-    /// The coordinate at the start of a run \[rad\] or \[m\].
-    pub position: Number,
-    /// Rate of the coordinate at the start of a run \[rad/s\] or \[m/s\].
-    pub rate: Number,
-    /// The inertia of a body that moves only with this rate, such as the rotor of a motor behind a gear \[kg m²\] or
-    /// \[kg\]. It adds ½ armature q̇² to the kinetic energy.
-    pub armature: Number,
-    /// The leader that determines its coordinate; `None` if it has a coordinate of its own.
-    pub follows: Option<Follows>,
-}
-
-impl Freedom {
-    /// True if it has a coordinate of its own.
-    pub fn is_own(&self) -> bool {
-        self.follows.is_none()
+/// [`SPELLINGS`] as written.
+pub(crate) const KEYS: &[JointKey] = &{
+    let mut keys = [SPELLINGS[0].written; SPELLINGS.len()];
+    let mut i = 0;
+    while i < keys.len() {
+        keys[i] = SPELLINGS[i].written;
+        i += 1;
     }
+    keys
+};
 
-    /// True if it moves the origin of its element along its axis.
-    pub fn slides(&self) -> bool {
-        self.kind.slides()
+/// [`WORDS`] as written.
+pub(crate) const WRITTEN_WORDS: &[JointWord] = &{
+    let mut words = [WORDS[0].written; WORDS.len()];
+    let mut i = 0;
+    while i < words.len() {
+        words[i] = WORDS[i].written;
+        i += 1;
     }
-}
-
-impl Joint {
-    /// The degrees of freedom; none for a ball joint, whose orientation is absolute.
-    pub fn freedoms(&self) -> &[Freedom] {
-        match self {
-            Joint::Ball => &[],
-            Joint::Freedoms(freedoms) => freedoms,
-        }
-    }
-
-    /// The degrees of freedom, mutable.
-    pub fn freedoms_mut(&mut self) -> &mut [Freedom] {
-        match self {
-            Joint::Ball => &mut [],
-            Joint::Freedoms(freedoms) => freedoms,
-        }
-    }
-
-    /// True if the element turns with its carrier.
-    pub fn turns_with_carrier(&self) -> bool {
-        matches!(self, Joint::Freedoms(_))
-    }
-}
+    words
+};

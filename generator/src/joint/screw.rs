@@ -7,25 +7,22 @@
 //!
 //! H = (h e + e × r, e),   Ḣ v as for a slider by h θ, then a hinge;   work of a wrench (f, n) about the origin: h e · f + e · (n + r × f)
 
-use super::written::{Made, Spelling, key};
-use super::{Coordinate, Kind};
-use crate::description::joint::Axis;
+use crate::description::joint::{Axis, Coordinate, JointKey};
 use crate::description::quantity::Quantity;
-use crate::model::Number;
+use crate::description::shape::Key;
+use crate::model::resolve::joint::{Made, Spelling};
 use crate::model::resolve::quantity::LENGTH;
-use serde::Serialize;
+use crate::model::{FreedomKind, Number};
 use std::f64::consts::TAU;
-
-/// A degree of freedom that turns, and slides by this distance per angle \[m/rad\].
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Screw(pub Number);
 
 /// `screw: z, pitch: 5 mm`
 pub(crate) const SPELLING: Spelling = Spelling {
-    key: key::<Axis>("screw"),
-    keys: &[key::<Quantity>("pitch")],
-    handed: &["pitch"],
-    coordinates: &[Coordinate::Angle],
+    written: JointKey {
+        key: Key::optional::<Axis>("screw"),
+        keys: &[Key::optional::<Quantity>("pitch")],
+        handed: &["pitch"],
+        coordinates: &[Coordinate::Angle],
+    },
     read: |reader| {
         if reader.leads_out_of_plane("write `hinge: y`, or give the model `dimension: 3`") {
             return None;
@@ -38,20 +35,9 @@ pub(crate) const SPELLING: Spelling = Spelling {
             return None;
         };
         let advance = Number::quotient(pitch, TAU.into());
-        Some(vec![Made::new(Screw(advance), reader.turning()?)])
+        Some(vec![Made::new(
+            FreedomKind::screw(advance),
+            reader.turning()?,
+        )])
     },
 };
-
-impl Kind for Screw {
-    fn coordinate(&self) -> Coordinate {
-        Coordinate::Angle
-    }
-
-    fn advance(&self) -> Option<Number> {
-        Some(self.0.clone())
-    }
-
-    fn numbers_mut(&mut self) -> Vec<&mut Number> {
-        vec![&mut self.0]
-    }
-}

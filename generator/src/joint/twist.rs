@@ -13,16 +13,16 @@
 //! s q̇ moves the origin p_end of the element relative to the carrier, and e q̇ turns it. The sums in ε and γ give Ḣ v. A degree of freedom does
 //! not change its own axis.   \[Featherstone 2008, ch. 3\]
 
-use super::{Freedom, Kind};
 use crate::dynamics::kinematics::ElementMotion;
 use crate::dynamics::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
+use crate::model::{Freedom, FreedomKind, Number};
 
 /// The angle by which a kind of degree of freedom turns per unit of its coordinate, 1 or 0, and its advance.
-pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &dyn Kind) -> (f64, Expr<'g>) {
-    let advance = kind.advance().unwrap_or(crate::model::Number::ZERO);
-    (f64::from(kind.turns()), number(graph, &advance))
+pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &FreedomKind) -> (f64, Expr<'g>) {
+    let advance = kind.advance().unwrap_or(&Number::ZERO);
+    (f64::from(kind.turns()), number(graph, advance))
 }
 
 /// The motion of an element. `at` is the place of its joint in the carrier's frame.

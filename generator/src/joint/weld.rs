@@ -2,12 +2,15 @@
 //!
 //! R and d are those of the carrier;   H has no column
 
-use super::Joint;
-use super::written::Word;
+use crate::description::joint::JointWord;
+use crate::model::Joint;
+use crate::model::resolve::joint::Word;
 
 /// `joint: weld`; an empty list means the same.
 pub(crate) const WORD: Word = Word {
-    word: "weld",
-    has_axes: false,
+    written: JointWord {
+        word: "weld",
+        has_axes: false,
+    },
     joint: |_, _| Joint::Freedoms(Vec::new()),
 };

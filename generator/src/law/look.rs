@@ -1,8 +1,8 @@
 //! The visible parts of a law. Pictures, reports and animations use nothing else of it.
 
 use super::Asked;
-use super::types::{Belt, Ellipsoid, Plane};
-use crate::model::{Attachment, Component, Number, Projection, Quantity};
+use super::types::Belt;
+use crate::model::{Attachment, Component, Plane, Projection, Quantity, Round, Shown};
 
 /// A visible part of a law.
 #[derive(Clone, Debug)]
@@ -20,19 +20,6 @@ pub enum Look<'a> {
     Line(Line<'a>, Vec<&'a Attachment>),
 }
 
-/// An ellipsoid of a body.
-#[derive(Clone, Copy, Debug)]
-pub struct Round<'a> {
-    /// The centre of the ellipsoid.
-    pub center: &'a Attachment,
-    /// The semi-axes \[m\].
-    pub semi_axes: &'a [Number; 3],
-    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\].
-    pub axes: &'a [Number; 3],
-    /// n of Σ |x_i/a_i|ⁿ = 1
-    pub degree: u32,
-}
-
 /// The kind of law that pulls along a line.
 #[derive(Clone, Copy, Debug)]
 pub enum Line<'a> {
@@ -42,18 +29,6 @@ pub enum Line<'a> {
     Spring,
     /// A bushing, from the origin of one frame to that of the other.
     Bushing,
-}
-
-impl Ellipsoid {
-    /// The ellipsoid as a part of a picture.
-    pub fn round(&self) -> Round<'_> {
-        Round {
-            center: &self.center,
-            semi_axes: &self.semi_axes,
-            axes: &self.axes,
-            degree: 2,
-        }
-    }
 }
 
 impl Look<'_> {
@@ -88,6 +63,33 @@ impl Look<'_> {
                 });
                 segments.collect()
             }
+        }
+    }
+}
+
+impl Shown {
+    /// The shape as part of a picture; `None` for a mesh, which no law has.
+    pub fn look(&self) -> Option<Look<'_>> {
+        match self {
+            Shown::Round(ellipsoid, degree) => Some(Look::Round(Round {
+                degree: *degree,
+                ..ellipsoid.round()
+            })),
+            Shown::Plane(plane) => Some(Look::Plane(plane, None)),
+            Shown::Mesh(_) => None,
+        }
+    }
+
+    /// True if the shape is the same as this part of a law.
+    pub(crate) fn is_in(&self, look: &Look<'_>) -> bool {
+        match (self, look) {
+            (Shown::Round(ellipsoid, _), Look::Round(round) | Look::Bag(round, _)) => {
+                let own = ellipsoid.round();
+                let shape = |round: &Round<'_>| (round.center.clone(), round.semi_axes.clone());
+                shape(&own) == shape(round) && own.axes == round.axes
+            }
+            (Shown::Plane(plane), Look::Plane(other, _)) => plane == *other,
+            _ => false,
         }
     }
 }

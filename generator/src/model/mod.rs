@@ -9,13 +9,16 @@
 mod curve;
 mod digest;
 mod hysteresis;
+pub mod joint;
 mod normal;
 mod number;
 pub mod part;
+pub mod placement;
 pub(crate) mod requirement;
 pub(crate) mod resolve;
 pub mod rule;
 pub mod scene;
+mod surface;
 mod switch;
 mod thin;
 pub mod units;
@@ -23,16 +26,17 @@ pub(crate) mod unloading;
 
 use serde::Serialize;
 
-pub use crate::joint::{Follows, Freedom, FreedomKind, Joint};
+pub use crate::description::joint::Coordinate;
 pub use crate::law::types::*;
 pub use crate::law::{Asked, ForceKind};
 pub use hysteresis::Hysteresis;
+pub use joint::{Follows, Freedom, FreedomKind, Joint};
 pub use number::Number;
 pub use requirement::Requirement;
 pub(crate) use resolve::is_keyword;
-pub use resolve::{read, read_str, read_without_sources};
 pub use rule::Rule;
 pub use scene::Scene;
+pub use surface::{EdgeRule, Ellipsoid, Extent, Mesh, Plane, Round, Shown, Triangles};
 pub use switch::{Active, Switch, SwitchQuantity, Trigger};
 pub use units::Units;
 

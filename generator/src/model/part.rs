@@ -636,7 +636,7 @@ fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {
     let own = [zero, position, rate, armature];
     axis.iter_mut()
         .chain(own)
-        .chain(kind.numbers_mut())
+        .chain(kind.number_mut())
         .chain(coupled)
 }
 

@@ -1,17 +1,15 @@
 //! A model together with everything that its text mentions, and the places in the text: the basis for explaining the
 //! model.
 
-use super::resolve::resolve;
+use super::resolve::Resolved;
 use super::{Criteria, Model, Shown};
 use crate::description::force::Force;
-use crate::description::load::{Loaded, read_file, read_model};
+use crate::description::load::Loaded;
 use crate::description::long::long_form;
 use crate::description::place::At;
 use crate::description::tree::Kind;
-use crate::diagnostic::Diagnostics;
 use std::collections::BTreeMap;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A model and its text.
 #[derive(Clone, Debug)]
@@ -31,6 +29,32 @@ pub struct Scene {
     pub long_form: String,
     /// For a URDF file: sentences on parts that were left out, and other remarks.
     pub notes: Vec<String>,
+}
+
+impl Scene {
+    /// The scene of a model that was read from these texts.
+    pub(crate) fn of(resolved: Resolved, loaded: Loaded) -> Self {
+        Scene {
+            model: resolved.model,
+            written: resolved.written,
+            criteria: resolved.criteria,
+            places: Places::of(&loaded),
+            long_form: long_form(&loaded),
+            read: loaded.paths,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Turns lines of the text that was read into lines of the file from which the text was made. Places without a line
+    /// there are left out.
+    pub(crate) fn turn_lines(&mut self, line_there: impl Fn(usize) -> Option<usize>) {
+        self.places.keep(&line_there);
+        for shown in self.model.shown.iter_mut().chain(&mut self.written.shown) {
+            if let Shown::Mesh(mesh) = shown {
+                mesh.line = line_there(mesh.line).unwrap_or_default();
+            }
+        }
+    }
 }
 
 /// A line of a file.
@@ -188,39 +212,4 @@ impl std::fmt::Display for Place {
 /// Law and name of a force: the name of an owner.
 fn owner(force: &Force) -> String {
     format!("{} {}", force.law().key, force.header().name)
-}
-
-/// Reads a model like [`read`](super::read), together with the places of its parts.
-pub fn read(path: &Path) -> Result<Scene, Diagnostics> {
-    let text = read_model(path)?;
-    let mut scene =
-        read_str(&text.name, &text.text, &read_file).map_err(|found| text.in_file(found))?;
-    scene.notes = text.notes().to_vec();
-    if !text.is_of_file() {
-        scene.places.keep(|line| text.line_of_file(line));
-        for shown in scene.model.shown.iter_mut().chain(&mut scene.written.shown) {
-            if let Shown::Mesh(mesh) = shown {
-                mesh.line = text.line_of_file(mesh.line).unwrap_or_default();
-            }
-        }
-    }
-    Ok(scene)
-}
-
-/// Reads a model from text like [`read_str`](super::read_str), together with the places of its parts.
-pub fn read_str(
-    name: &str,
-    text: &str,
-    loader: &dyn Fn(&Path) -> io::Result<String>,
-) -> Result<Scene, Diagnostics> {
-    let (resolved, loaded) = resolve(name, text, loader)?;
-    Ok(Scene {
-        model: resolved.model,
-        written: resolved.written,
-        criteria: resolved.criteria,
-        places: Places::of(&loaded),
-        long_form: long_form(&loaded),
-        read: loaded.paths,
-        notes: Vec::new(),
-    })
 }

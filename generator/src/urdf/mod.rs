@@ -126,7 +126,7 @@ fn refused(name: &str, text: &str, problems: Vec<tree::Problem>) -> Diagnostics 
 /// Gives moments to the links that the model refuses because they turn without inertia.
 fn without_inertia(robot: &mut Robot, imported: &Imported) -> Vec<String> {
     let nothing = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-    let Err(found) = crate::model::read_str("model.yaml", &imported.yaml, &nothing) else {
+    let Err(found) = crate::read_str("model.yaml", &imported.yaml, &nothing) else {
         return Vec::new();
     };
     let places = found

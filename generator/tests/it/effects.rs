@@ -11,7 +11,7 @@ use bryant_generator::dynamics;
 use bryant_generator::effect::{self, Effect, Reason, Variant};
 use bryant_generator::expression::Function;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{Dimension, Model, Reference, Scene, scene};
+use bryant_generator::model::{Dimension, Model, Reference, Scene};
 use cases::{CASES, plane, space};
 use std::collections::BTreeSet;
 use std::io;
@@ -54,7 +54,8 @@ fn terms(model: &Model) -> impl Iterator<Item = String> {
 
 fn read(text: &str) -> Scene {
     let nothing = |_: &Path| Err(io::ErrorKind::NotFound.into());
-    scene::read_str("m.yaml", text, &nothing).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    bryant_generator::read_scene_str("m.yaml", text, &nothing)
+        .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 fn source(scene: &Scene) -> String {
@@ -215,7 +216,7 @@ outputs:
 /// A model of the repository.
 fn bundled(path: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
-    scene::read(&path).unwrap_or_else(|e| panic!("{e}"))
+    bryant_generator::read_scene(&path).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// v̇ of a model at a time and a state, with the names of its entries.

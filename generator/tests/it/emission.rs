@@ -1,13 +1,14 @@
 //! The emitted Rust: the text for a reader, and its values.
 
 mod interpret;
-
 use bryant_generator::dynamics::derive;
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Function, NodeId};
-use bryant_generator::model::{Coordinates, Model, read, read_str};
+use bryant_generator::model::{Coordinates, Model};
 use bryant_generator::program::Options;
+use bryant_generator::read;
+use bryant_generator::read_str;
 use bryant_generator::target::rust;
 use interpret::{Module, Value};
 use std::path::Path;

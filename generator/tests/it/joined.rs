@@ -1,7 +1,7 @@
 //! Lists that join several methods: what the methods have in common is computed once.
 
 use bryant_generator::program::{Combination, List, Method, Operation};
-use bryant_generator::{Config, expression::Function, model};
+use bryant_generator::{Config, expression::Function};
 use std::path::Path;
 
 /// The number of searches between two ellipsoids.
@@ -17,7 +17,7 @@ fn searches(list: &List) -> usize {
 fn power_and_wrench_of_a_contact_need_one_search() {
     for (scene, contacts) in [("occupant", 1), ("pedestrian", 7)] {
         let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/scenes");
-        let (model, _) = model::read(&scenes.join(format!("{scene}.yaml"))).unwrap();
+        let (model, _) = bryant_generator::read(&scenes.join(format!("{scene}.yaml"))).unwrap();
         let lists = Config::new().matrices(false).lists(&model);
         for method in [Method::Derivative, Method::Powers, Method::ExternalWrench] {
             assert_eq!(

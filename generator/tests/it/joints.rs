@@ -1,12 +1,12 @@
 //! Joints with freedoms of their own: the equations against Lagrange's, against each other, and against closed forms.
-
 use crate::share::share;
 use bryant_generator::dynamics::lagrange::lagrange;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use nalgebra::{DMatrix, DVector};
 use std::path::Path;
 

@@ -1,10 +1,11 @@
 //! The meaning of models: names become indices, quantities become SI numbers, absent effects become nothing.
-
 use bryant_generator::model::{
     Asked, BeltLength, Body, Component, Dimension, ElementId, Extrapolate, Field, FieldComponent,
     ForceKind, Given, JointOutput, Load, Model, Number, PointQuantity, Projection, Quantity,
-    Reference, Translation, read, read_str,
+    Reference, Translation,
 };
+use bryant_generator::read;
+use bryant_generator::read_str;
 use std::io;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,4 @@
 //! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them the generator would choose.
-
 use crate::share::share;
 use bryant_generator::dynamics::augmented::AugmentedTree;
 use bryant_generator::dynamics::kinematics::{Motion, State};
@@ -14,7 +13,8 @@ use bryant_generator::dynamics::spatial::{self, Spatial};
 use bryant_generator::dynamics::{chart, force};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Expr, Function, Graph, NodeId};
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use std::path::Path;
 
 fn read(text: &str) -> Model {

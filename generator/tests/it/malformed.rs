@@ -3,8 +3,7 @@
 //! Each file of `malformed/` is read as for a user; the snapshots have the text that the user sees.
 
 mod slips;
-
-use bryant_generator::model::read_str;
+use bryant_generator::read_str;
 use bryant_generator::{Diagnostic, Diagnostics};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -159,12 +158,12 @@ fn many_problems_are_counted_and_the_first_are_shown() {
 
 #[test]
 fn a_file_that_cannot_be_read_is_named() {
-    let missing = bryant_generator::model::read(Path::new("no/such.yaml")).unwrap_err();
+    let missing = bryant_generator::read(Path::new("no/such.yaml")).unwrap_err();
     assert!(
         missing.problems[0]
             .line()
             .starts_with("no/such.yaml: there is no file \"no/such.yaml\"")
     );
-    let folder = bryant_generator::model::read(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_err();
+    let folder = bryant_generator::read(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_err();
     assert!(folder.problems[0].message.contains("it is not a file"));
 }

@@ -1,10 +1,10 @@
 //! The table of methods.
-
 use bryant_generator::dynamics::derive;
 use bryant_generator::method::Method;
 use bryant_generator::method::inputs::Inputs;
 use bryant_generator::method::table::{Source, methods, motion};
-use bryant_generator::model::read;
+use bryant_generator::read;
+
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -2,13 +2,15 @@
 
 use bryant_generator::dynamics::derive;
 use bryant_generator::effect::general;
-use bryant_generator::model::{Model, scene};
+use bryant_generator::model::Model;
 use bryant_generator::program;
 use std::path::Path;
 
 fn written(path: &str) -> Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
-    scene::read(&path).expect("a valid model").written
+    bryant_generator::read_scene(&path)
+        .expect("a valid model")
+        .written
 }
 
 #[test]

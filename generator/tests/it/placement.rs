@@ -1,8 +1,8 @@
 //! Place and columns of joints in numbers.
+use bryant_generator::model::Freedom;
+use bryant_generator::model::placement::{columns, placed};
+use bryant_generator::read_str;
 
-use bryant_generator::joint::Freedom;
-use bryant_generator::joint::placement::{columns, placed};
-use bryant_generator::model::read_str;
 use bryant_generator::rotation::{of_roll_pitch_yaw, product, transpose};
 
 /// The degrees of freedom of an element on a joint as written.

@@ -1,7 +1,8 @@
 //! The reference page agrees with the program: every key of every record, and valid examples.
-
 use bryant_generator::description::vocabulary;
-use bryant_generator::model::read_str;
+use bryant_generator::read::LANGUAGE;
+use bryant_generator::read_str;
+
 use std::io;
 use std::path::Path;
 
@@ -39,7 +40,7 @@ fn documented() -> Vec<(String, Vec<(String, String)>)> {
 #[test]
 fn every_key_is_documented_and_every_documented_key_is_read() {
     let capital = |title: &str| title[..1].to_uppercase() + &title[1..];
-    let read: Vec<(String, Vec<String>)> = vocabulary()
+    let read: Vec<(String, Vec<String>)> = vocabulary(LANGUAGE)
         .into_iter()
         .map(|(title, keys)| {
             (
@@ -59,7 +60,7 @@ fn every_key_is_documented_and_every_documented_key_is_read() {
 #[test]
 fn what_is_required_is_called_required() {
     let tables = documented();
-    for ((title, keys), (_, rows)) in vocabulary().into_iter().zip(&tables) {
+    for ((title, keys), (_, rows)) in vocabulary(LANGUAGE).into_iter().zip(&tables) {
         for (key, (_, default)) in keys.iter().zip(rows) {
             // if one of several keys is required, a check of its own says so
             assert_eq!(

@@ -1,10 +1,10 @@
 //! Short forms: lists, mirror images, named surfaces and groups, instances. Their generated text equals byte for byte that of the long
 //! form, whether the program writes the long form (`check --long`) or a person.
-
 use bryant_generator::dynamics::derive;
 use bryant_generator::equations::Equations;
-use bryant_generator::model::{Model, Number, read_str, scene};
+use bryant_generator::model::{Model, Number};
 use bryant_generator::program::Options;
+use bryant_generator::read_str;
 use bryant_generator::target::rust;
 use std::collections::BTreeMap;
 use std::io;
@@ -18,7 +18,8 @@ fn read(text: &str, files: &Files<'_>) -> Result<(Model, String), String> {
         Some(text) => Ok((*text).to_owned()),
         None => Err(io::ErrorKind::NotFound.into()),
     };
-    let scene = scene::read_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
+    let scene =
+        bryant_generator::read_scene_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
     let (model, _) = read_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
     Ok((model, scene.long_form))
 }

@@ -7,11 +7,11 @@ mod digits;
 mod kinds;
 mod parts;
 mod repaired;
-
 use bryant_generator::Diagnostics;
 use bryant_generator::dynamics::derive;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use bryant_generator::urdf::{Base, Imported, Options, import};
 use std::io;
 use std::path::Path;

@@ -1,6 +1,7 @@
 //! User forces: their Rust files are part of the model, and the generated text contains them.
-
-use bryant_generator::model::{Model, read_str, read_without_sources};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
+use bryant_generator::read_without_sources;
 use bryant_generator::target::rust;
 use bryant_generator::{Config, Diagnostics};
 use std::io;

@@ -1,8 +1,8 @@
 //! Valid models to start from; together they have every kind of force, motion, switch and output.
-
 use crate::scene::Scene;
 use bryant_generator::Diagnostics;
-use bryant_generator::model::{Model, read_str};
+use bryant_generator::model::Model;
+use bryant_generator::read_str;
 use std::io;
 use std::path::Path;
 

@@ -7,8 +7,8 @@
 //! searched from many start values. This proves nothing, but the joints of two or three hinges and sliders that users
 //! write have few minima.
 
-use bryant_generator::joint::{Freedom, Joint};
 use bryant_generator::model::{Active, ElementId, ForceKind, Model};
+use bryant_generator::model::{Freedom, Joint};
 use std::f64::consts::{PI, TAU};
 
 type Vector = [f64; 3];

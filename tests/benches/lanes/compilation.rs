@@ -93,7 +93,7 @@ pub fn table<const N: usize>(models: [(&str, &str); N]) {
     for (name, path) in models {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
         let (model, _) =
-            bryant_generator::model::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
+            bryant_generator::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
         let module = Config::new().matrices(false).source(&model);
         print!("| {name} | {}", module.lines().count());
         for (kind, around) in [("alone", ALONE), ("every_width", EVERY_WIDTH)] {

@@ -12,9 +12,9 @@
 mod compilation;
 mod machine_code;
 mod runs;
-
 use bryant_generator::dynamics::{Options, derive_with};
-use bryant_generator::model::read;
+use bryant_generator::read;
+
 use bryant_generator::program;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector, Width};

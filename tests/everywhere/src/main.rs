@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for path in std::env::args().skip(1) {
         let text = std::fs::read_to_string(&path)?;
         let included = |file: &Path| std::fs::read_to_string(file);
-        let (model, _) = model::read_str(&path, &text, &included)?;
+        let (model, _) = bryant_generator::read_str(&path, &text, &included)?;
         let engine = Engine::new(Config::new().lists(&model))?;
         let machine = engine.over::<f64>();
         let mut start = vec![0.0; machine.info().state_length()];

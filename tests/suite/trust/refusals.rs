@@ -639,7 +639,7 @@ fn no_number_of_a_law_is_forgotten() {
                 .extension()
                 .is_some_and(|extension| extension == "yaml")
             {
-                models.extend(bryant_generator::model::read(&path).map(|(model, _)| model));
+                models.extend(bryant_generator::read(&path).map(|(model, _)| model));
             }
         }
     }

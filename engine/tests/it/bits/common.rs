@@ -160,7 +160,7 @@ impl OfAnyWidth for WithSlope<'_> {
 /// The engine of a bundled model.
 pub fn engine(name: &str, matrices: bool) -> Engine {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../models/{name}.yaml"));
-    let (model, _) = model::read(&path).expect("bundled models are right");
+    let (model, _) = bryant_generator::read(&path).expect("bundled models are right");
     let lists = Config::new().matrices(matrices).lists(&model);
     let users = match name {
         "skydiver" => Some(Users::Drag),

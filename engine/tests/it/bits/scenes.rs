@@ -19,7 +19,7 @@ const SCENES: [&str; 2] = ["occupant", "pedestrian"];
 
 fn engine(name: &str) -> Engine {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../benches/scenes");
-    let (model, _) = model::read(&root.join(format!("{name}.yaml"))).unwrap();
+    let (model, _) = bryant_generator::read(&root.join(format!("{name}.yaml"))).unwrap();
     Engine::new(Config::new().matrices(false).lists(&model)).unwrap()
 }
 

@@ -5,9 +5,9 @@
 //! start, the same laws.
 
 use super::{Expander, Node, mirror::negated};
+use crate::description::joint::Coordinate;
 use crate::description::tree::{Entry, Kind};
 use crate::diagnostic::quoted;
-use crate::joint::{Coordinate, SPELLINGS};
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
@@ -85,7 +85,7 @@ impl Expander<'_> {
             return all;
         }
         let mut image = freedom.clone();
-        for spelling in SPELLINGS {
+        for spelling in self.problems.language.joint_keys {
             let turns = spelling.coordinates == [Coordinate::Angle];
             image.change(spelling.key.name, |axis| self.mirrored_axis(axis, turns));
             for key in spelling.handed {

@@ -8,7 +8,6 @@
 use super::{Expander, Node, law_and_name};
 use crate::description::tree::{Entry, Kind};
 use crate::diagnostic::quoted;
-use crate::joint::written::has_axes;
 
 /// How two sides correspond.
 #[derive(Debug)]
@@ -137,7 +136,7 @@ impl Expander<'_> {
         let mut flags = Vec::new();
         for element in items.iter_mut() {
             if let (Some(joint), Some(name)) = (element.get("joint"), element.word("name"))
-                && has_axes(joint.text())
+                && self.problems.language.has_axes(joint.text())
             {
                 let path = format!("{system}/{name}");
                 self.known.jointed.insert(path);

@@ -194,7 +194,7 @@ fn joints<'g>(
             return None;
         };
         let (q, rate) = motion.freedoms[i];
-        let (turn, slide) = turn_and_advance(graph, &*freedom.kind);
+        let (turn, slide) = turn_and_advance(graph, &freedom.kind);
         let joint = LinkJoint::Axis {
             axis: [x, y, z],
             turn,

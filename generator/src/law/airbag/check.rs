@@ -3,11 +3,11 @@
 use super::keys::{Air, Airbag as Written, Inflow as WrittenInflow, Vent};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::law::contact::check::ellipsoid;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::quantity::{
     AREA, GAS_CONSTANT, MASS_FLOW, PRESSURE, PURE, TEMPERATURE, TIME,
 };
+use crate::model::resolve::surface::ellipsoid;
 use crate::model::{Curve, Dimension, Ellipsoid, Extrapolate, Number, ScaledCurve};
 use serde::Serialize;
 

@@ -6,7 +6,7 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record};
 use crate::description::short::ByName;
-use crate::law::contact::keys::Ellipsoid;
+use crate::description::surface::Ellipsoid;
 use crate::law::{ForceKind, Header, Keys, record};
 use crate::model::resolve::Resolver;
 

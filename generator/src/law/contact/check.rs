@@ -1,19 +1,16 @@
 //! Contacts of an ellipsoid with a plane or another ellipsoid.
 
-use super::keys::{Contact as Written, Ellipsoid as WrittenEllipsoid};
-use super::plane::plane;
-use crate::description::mesh::Solid;
+use super::keys::Contact as Written;
 use crate::description::place::At;
-use crate::description::quantity::Quantity;
-use crate::description::short::Surface;
 use crate::diagnostic::quoted;
-use crate::law::{Look, Round};
+use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
-use crate::model::resolve::quantity::{
-    ANGLE, FORCE, FRICTION, LENGTH, LINEAR_DAMPING, PURE, SPEED, STIFFNESS,
+use crate::model::resolve::quantity::{FORCE, FRICTION, LENGTH, LINEAR_DAMPING, SPEED, STIFFNESS};
+use crate::model::resolve::surface::{EDGE_WIDTH, degree, ellipsoid, plane};
+use crate::model::{
+    Attachment, Bristle, EdgeRule, Ellipsoid, Extent, Friction, Hysteresis, Number, Plane,
+    ScaledCurve,
 };
-use crate::model::resolve::{NOWHERE, Resolver, name::Style};
-use crate::model::{Attachment, Body, Bristle, Friction, Hysteresis, Number, ScaledCurve};
 use serde::Serialize;
 
 /// Sliding speed from which on contact friction has its full size, if the user gives none \[m/s\].
@@ -21,9 +18,6 @@ const FRICTION_SPEED: f64 = 0.01;
 
 /// Penetration from which on damping has its full size, if the user gives none \[m\].
 const DAMPING_DEPTH: f64 = 1e-3;
-
-/// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
-const MAX_DEGREE: f64 = 100.0;
 
 /// Contact of an ellipsoid with a plane or another ellipsoid.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -86,88 +80,6 @@ impl Against {
             Against::Ellipsoid(_) => None,
         }
     }
-}
-
-/// A plane that an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Plane {
-    /// A point of the plane.
-    pub at: Attachment,
-    /// Unit normal in the local frame of the plane's body, pointing to the side where the ellipsoid belongs.
-    pub normal: [Number; 3],
-    /// In space: a unit vector along the plane, in the local frame of its body. A second one is normal × tangent.
-    pub tangent: [Number; 3],
-    /// The edges of the plane; `None` for a plane without end.
-    pub extent: Option<Extent>,
-}
-
-/// An ellipsoid that an ellipsoid meets.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Ellipsoid {
-    /// The centre of the ellipsoid.
-    pub center: Attachment,
-    /// As [`Contact::semi_axes`].
-    pub semi_axes: [Number; 3],
-    /// As [`Contact::axes`].
-    pub axes: [Number; 3],
-}
-
-/// A shape that is drawn, but takes part in no contact.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shown {
-    /// An ellipsoid, and its [degree](Contact::degree).
-    Round(Ellipsoid, u32),
-    /// A plane.
-    Plane(Plane),
-    /// A mesh of triangles.
-    Mesh(Mesh),
-}
-
-/// What a mesh is made of.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Triangles {
-    /// A file by its path as written: relative to the file that names it, or `package://…` as in URDF.
-    File(String),
-    /// A shape about the origin, whose length along each axis is 1.
-    Solid(Solid),
-}
-
-/// Triangles.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mesh {
-    /// The body that the mesh moves with.
-    pub on: Body,
-    /// What it is made of.
-    pub of: Triangles,
-    /// The file that names it.
-    pub source: String,
-    /// The line in that file.
-    pub line: usize,
-    /// The origin of the mesh in the body's frame \[m\].
-    pub at: [f64; 3],
-    /// Bryant angles of the axes of the mesh relative to the body's frame \[rad\].
-    pub angles: [f64; 3],
-    /// Factors on the coordinates of the mesh, one for each axis.
-    pub scale: [f64; 3],
-}
-
-/// The finite extent of a plane.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Extent {
-    /// Distances from the point of the plane to its edges, along the tangent and, in space, along normal × tangent
-    /// \[m\].
-    pub half_lengths: Vec<Number>,
-    /// The way in which the force ends at the edges.
-    pub rule: EdgeRule,
-}
-
-/// The way in which the force of a contact ends at the edge of a plane.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub enum EdgeRule {
-    /// The full force acts while the deepest point projects inside the edges, and none outside.
-    Cut,
-    /// The force fades to 0 over this width inside the edge \[m\].
-    Fade(Number),
 }
 
 /// The checked form of a contact.
@@ -322,9 +234,6 @@ fn check_bodies(
     ));
 }
 
-/// Smallest default of the width over which a force fades at an edge \[m\].
-pub(super) const EDGE_WIDTH: f64 = 10e-3;
-
 /// Sets the width of a fading edge for which the user gives none to the penetration that is to be expected, but to no
 /// less than [`EDGE_WIDTH`] and no more than the half-lengths. This penetration is the last point of the elastic curve,
 /// or the smallest semi-axis of the ellipsoid if that is less. The push of the edge, E S'/width with S' ≤ 3/2, is then
@@ -388,138 +297,4 @@ fn check_fading_edge(
             "write `edge: { rule: cut }`, or leave `degree` out",
         ));
     }
-}
-
-/// Checks a named surface, even if no contact names it.
-pub(crate) fn surface(
-    resolver: &Resolver<'_>,
-    name: &str,
-    written: &Surface,
-    at: At<'_>,
-) -> Option<Shown> {
-    resolver.check_name(name, "a surface", Style::Either, at.on_key());
-    match written {
-        Surface::Ellipsoid(written) => {
-            let round = ellipsoid(resolver, written, at);
-            let degree = degree(resolver, written.degree.as_ref(), at.key("degree"));
-            round.map(|round| Shown::Round(round, degree))
-        }
-        Surface::Plane(written) => plane(resolver, written, at).map(Shown::Plane),
-    }
-}
-
-impl Shown {
-    /// The shape as part of a picture; `None` for a mesh, which no law has.
-    pub fn look(&self) -> Option<Look<'_>> {
-        match self {
-            Shown::Round(ellipsoid, degree) => Some(Look::Round(Round {
-                degree: *degree,
-                ..ellipsoid.round()
-            })),
-            Shown::Plane(plane) => Some(Look::Plane(plane, None)),
-            Shown::Mesh(_) => None,
-        }
-    }
-
-    /// The body that the shape moves with.
-    pub(crate) fn body_mut(&mut self) -> &mut Body {
-        match self {
-            Shown::Round(ellipsoid, _) => &mut ellipsoid.center.on,
-            Shown::Plane(plane) => &mut plane.at.on,
-            Shown::Mesh(mesh) => &mut mesh.on,
-        }
-    }
-
-    /// True if the shape is the same as this part of a law.
-    pub(crate) fn is_in(&self, look: &Look<'_>) -> bool {
-        match (self, look) {
-            (Shown::Round(ellipsoid, _), Look::Round(round) | Look::Bag(round, _)) => {
-                let own = ellipsoid.round();
-                let shape = |round: &Round<'_>| (round.center.clone(), round.semi_axes.clone());
-                shape(&own) == shape(round) && own.axes == round.axes
-            }
-            (Shown::Plane(plane), Look::Plane(other, _)) => plane == *other,
-            _ => false,
-        }
-    }
-
-    /// The shape with its numbers replaced by their values at these parameters.
-    pub(crate) fn fixed(mut self, parameters: &[f64]) -> Self {
-        let mut numbers: Vec<&mut Number> = Vec::new();
-        match &mut self {
-            Shown::Round(ellipsoid, _) => {
-                let Ellipsoid {
-                    center,
-                    semi_axes,
-                    axes,
-                } = ellipsoid;
-                numbers.extend(center.at.iter_mut().chain(semi_axes).chain(axes));
-            }
-            Shown::Plane(plane) => {
-                let Plane {
-                    at,
-                    normal,
-                    tangent,
-                    extent,
-                } = plane;
-                numbers.extend(at.at.iter_mut().chain(normal).chain(tangent));
-                if let Some(Extent { half_lengths, rule }) = extent {
-                    numbers.extend(half_lengths);
-                    // the way in which a force fades cannot be seen
-                    *rule = EdgeRule::Cut;
-                }
-            }
-            Shown::Mesh(_) => {}
-        }
-        for number in numbers {
-            *number = Number::Constant(number.value(parameters));
-        }
-        self
-    }
-}
-
-/// The checked form of an ellipsoid. The caller must check the degree.
-pub(crate) fn ellipsoid(
-    resolver: &Resolver<'_>,
-    written: &WrittenEllipsoid,
-    at: At<'_>,
-) -> Option<Ellipsoid> {
-    let center = Attachment {
-        on: resolver.body(&written.on, at.key("on"))?,
-        at: resolver.vector(&written.center, at.key("center"), LENGTH),
-    };
-    let semi_axes = resolver.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
-    let axes = match &written.axes {
-        Some(axes) => resolver.rotation(axes, at.key("axes"), ANGLE),
-        None => NOWHERE,
-    };
-    Some(Ellipsoid {
-        center,
-        semi_axes,
-        axes,
-    })
-}
-
-/// The degree of an ellipsoid; 2 if none is written.
-fn degree(resolver: &Resolver<'_>, written: Option<&Quantity>, at: At<'_>) -> u32 {
-    let Some(quantity) = written else { return 2 };
-    let (number, value) = resolver.valued(quantity, at, PURE);
-    let Some(value) = value else { return 2 };
-    let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
-    if number.constant().is_none() {
-        resolver.problems.add(at.problem(
-            "the degree depends on a parameter",
-            "give a number: it decides which code is generated",
-        ));
-    } else if !even {
-        resolver.problems.add(at.problem(
-            format!("the degree of an ellipsoid is {value}"),
-            format!(
-                "give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"
-            ),
-        ));
-    } else {
-        return value as u32;
-    }
-    2
 }

@@ -3,9 +3,10 @@
 use crate::description::curve::Function;
 use crate::description::expand::{Expander, Node};
 use crate::description::place::At;
-use crate::description::quantity::{OneOrThree, Quantity};
-use crate::description::shape::{Key, record, words};
+use crate::description::quantity::Quantity;
+use crate::description::shape::{Key, record};
 use crate::description::short::ByName;
+use crate::description::surface::{Edge, Ellipsoid, Plane};
 use crate::law::{ForceKind, Header, Keys, record};
 use crate::model::resolve::Resolver;
 
@@ -46,64 +47,6 @@ record! {
         friction_speed: Option<Quantity>,
         /// Displacement at which friction that holds is fully there \[m\].
         friction_displacement: Option<Quantity>,
-    }
-}
-
-record! {
-    /// An ellipsoid on a body.
-    Ellipsoid as "an ellipsoid" {
-        /// `frame`, or an element as `system/element`.
-        on: String,
-        /// Centre, local frame \[m\].
-        center: Vec<Quantity>,
-        /// Semi-axes \[m\].
-        semi_axes: Vec<Quantity>,
-        /// Bryant angles of its axes relative to the local frame \[rad\].
-        axes: Option<OneOrThree>,
-        /// Even exponent of its equation.
-        degree: Option<Quantity>,
-        /// Of a named surface: whether it has a mirror image.
-        mirror: Option<bool>,
-    }
-}
-
-record! {
-    /// A plane on a body.
-    Plane as "a plane" {
-        /// `frame`, or an element as `system/element`.
-        on: String,
-        /// A point of it, local frame \[m\].
-        at: Vec<Quantity>,
-        /// Direction to the side of the ellipsoid, local frame; of any length.
-        normal: Vec<Quantity>,
-        /// In space: direction of its first edge, local frame; of any length.
-        along: Option<Vec<Quantity>>,
-        /// Half its lengths \[m\]: one in the plane, two in space.
-        extent: Option<OneOrThree>,
-        /// What happens where it ends.
-        edge: Option<Edge>,
-        /// Of a named surface: whether it has a mirror image.
-        mirror: Option<bool>,
-    }
-}
-
-record! {
-    /// Where a plane ends.
-    Edge as "an edge" {
-        /// What becomes of the force there.
-        rule: Option<EdgeRule>,
-        /// Width over which it fades \[m\].
-        width: Option<Quantity>,
-    }
-}
-
-words! {
-    /// What becomes of a contact's force at an edge.
-    EdgeRule {
-        /// It ends.
-        Cut = "cut",
-        /// It fades.
-        Fade = "fade",
     }
 }
 

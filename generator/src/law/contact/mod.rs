@@ -4,7 +4,6 @@ pub(crate) mod check;
 pub(crate) mod force;
 pub mod keys;
 pub(crate) mod outputs;
-pub(crate) mod plane;
 pub(crate) mod terms;
 
 pub use check::*;

@@ -1,11 +1,11 @@
 //! The terms of a contact, and the conditions that the numbers of a plane must meet together.
 
-use super::check::{Against, Contact, EdgeRule, Ellipsoid, Extent, Plane};
+use super::check::{Against, Contact};
 use crate::law::Terms;
-use crate::model::part::{Field, Fresh, Part, Term, attachment, finite};
+use crate::model::part::{Field, Term, attachment, finite};
 use crate::model::requirement::{Curves, List};
-use crate::model::rule::{Rule, Ruled};
-use crate::model::{Body, Dimension, Number};
+use crate::model::rule::Rule;
+use crate::model::{Body, Dimension, EdgeRule, Ellipsoid, Number, Plane};
 
 /// Largest product of tangent and normal, squared, that counts as rounding: up to this they are perpendicular.
 const SQUARE_TO: f64 = 1e-12;
@@ -168,37 +168,6 @@ impl Terms for Contact {
 
 /// Extent along y of a planar scene in space: nothing moves out of it \[m\].
 const ENDLESS: f64 = 1e3;
-
-/// The edges of a plane, as a part that may be left out.
-impl Part for Option<Extent> {
-    fn is_in(&self) -> bool {
-        self.is_some()
-    }
-    fn leave_out(&mut self) {
-        *self = None;
-    }
-    fn put_in(&mut self, _: &mut Fresh<'_>) {}
-    fn numbers(&mut self) -> Vec<Ruled<'_>> {
-        let Some(Extent { half_lengths, rule }) = self else {
-            return Vec::new();
-        };
-        let one = half_lengths.len() == 1;
-        let lengths = half_lengths.iter_mut().enumerate();
-        let mut numbers: Vec<Ruled<'_>> = lengths
-            .map(|(index, length)| match one {
-                true => Ruled::itself(Rule::Positive, length),
-                false => Ruled::item(index, Rule::Positive, length),
-            })
-            .collect();
-        match rule {
-            EdgeRule::Cut => {}
-            EdgeRule::Fade(width) => {
-                numbers.push(Ruled::beside("edge.width", Rule::Positive, width));
-            }
-        }
-        numbers
-    }
-}
 
 /// Adds the numbers of the shape of an ellipsoid.
 pub(crate) fn shape<'a>(

@@ -1,16 +1,18 @@
 //! Joint forces: laws of relative rotations and of freedoms; in space also of flexion and torsion.
 
 use super::keys::{
-    Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, LongAxis,
-    Order as WrittenOrder, Stop as WrittenStop, Torque,
+    Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, Order as WrittenOrder,
+    Stop as WrittenStop, Torque,
 };
 use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::diagnostic::{nearest, quoted};
+use crate::description::short::LongAxis;
+use crate::diagnostic::quoted;
 use crate::model::part::{AXES, Part};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
+use crate::model::resolve::joint::freedom_named;
 use crate::model::resolve::quantity::{
     ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
     SPEED, STIFFNESS, TORQUE,
@@ -424,58 +426,6 @@ fn law_of_freedom(
         freedom,
         law: Box::new(law),
     })
-}
-
-/// The freedom of a joint that a name refers to.
-pub(crate) fn freedom_named(
-    resolver: &Resolver<'_>,
-    name: Option<&str>,
-    path: &str,
-    freedoms: &[KinematicFreedom],
-    at: At<'_>,
-) -> Option<usize> {
-    let names = || freedoms.iter().map(|f| f.name.as_str());
-    let all = names()
-        .map(|n| format!("`{n}`"))
-        .collect::<Vec<_>>()
-        .join(", ");
-    match (name, freedoms) {
-        (_, []) => {
-            resolver.problems.add(at.problem(
-                format!("{} is welded: its joint has no freedom", quoted(path)),
-                "remove this, or give the element another `joint:`",
-            ));
-            None
-        }
-        (None, [_]) => Some(0),
-        (None, _) => {
-            resolver.problems.add(at.problem(
-                format!(
-                    "the joint of {} has several freedoms, and it is not said which is meant",
-                    quoted(path)
-                ),
-                format!("add `freedom:` with one of {all}"),
-            ));
-            None
-        }
-        (Some(name), _) => {
-            let found = freedoms.iter().position(|f| f.name == name);
-            if found.is_none() {
-                resolver.problems.add(at.key("freedom").problem(
-                    format!(
-                        "the joint of {} has no freedom {}",
-                        quoted(path),
-                        quoted(name)
-                    ),
-                    match nearest(name, names()) {
-                        Some(near) => format!("did you mean `{near}`? There are {all}"),
-                        None => format!("there are {all}"),
-                    },
-                ));
-            }
-            found
-        }
-    }
 }
 
 /// Flexion and torsion; `None` where neither has a law.

@@ -6,6 +6,7 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record, words};
 use crate::description::short::Each;
+use crate::description::short::LongAxis;
 use crate::law::{ForceKind, Header, Keys, record};
 use crate::model::resolve::Resolver;
 
@@ -60,18 +61,6 @@ record! {
         flexion: Option<Flexion>,
         /// In space: the law of the turn about the long axes.
         torsion: Option<Torque>,
-    }
-}
-
-words! {
-    /// A local axis.
-    LongAxis {
-        /// The local x axis.
-        X = "x",
-        /// The local y axis.
-        Y = "y",
-        /// The local z axis.
-        Z = "z",
     }
 }
 

@@ -8,12 +8,12 @@ use crate::description::point::Point;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
 use crate::diagnostic::{Diagnostic, quoted};
-use crate::law::joint::check::freedom_named;
 use crate::law::user::keys::{
     User as Written, UserFreedom as WrittenFreedom, UserLine as WrittenLine, UserPoint,
     UserState as WrittenState,
 };
 use crate::model::resolve::Resolver;
+use crate::model::resolve::joint::freedom_named;
 use crate::model::resolve::name::{Style, identifier};
 use crate::model::resolve::quantity::{ANY, LENGTH, Measure, TIME};
 use crate::model::resolve::run::time;

@@ -1,12 +1,13 @@
 //! Elements: one tree for each system, with parents before children, and realisable masses and moments of inertia.
 
+use super::follows::couple;
+use super::joint::joint_of;
 use super::quantity::{ANGLE, INERTIA, LENGTH, MASS};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::Element as Written;
 use crate::description::place::At;
 use crate::description::quantity::OneOrThree;
 use crate::diagnostic::{quoted, suggestion};
-use crate::joint::{couple, joint_of};
 use crate::model::requirement::ROUNDING;
 use crate::model::{Element, Number};
 use crate::rotation::{bryant_angles, principal};

@@ -10,8 +10,8 @@ use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
 use super::regularity::{ROUNDING, general_angles};
-use crate::joint::placement::{self, Column, placed};
-use crate::joint::{ball, free};
+use crate::model::joint::{axes_of_rotation, directions};
+use crate::model::placement::{self, Column, placed};
 use crate::model::{Element, Joint, Number, Reference, System};
 
 /// Matrix from motions to wrenches, linear components first.
@@ -96,7 +96,7 @@ pub fn idle(system: &System, planar: bool, parameters: &[f64]) -> Option<Idle> {
             let rigid = composite[k];
             add(&mut composite[parent], &transported(&rigid, u, turns));
         } else if system.reference == Reference::Free {
-            let directions = free::directions(planar);
+            let directions = directions(planar);
             let unit = |i: &usize| std::array::from_fn(|j| f64::from(*i == j));
             let columns: Vec<Column> = directions.iter().map(unit).collect();
             let mut rest = left;
@@ -180,7 +180,7 @@ type Row = Option<(usize, usize)>;
 /// The directions in which the reference joint moves.
 fn reference_directions(system: &System, planar: bool) -> &'static [usize] {
     match system.reference {
-        Reference::Free => free::directions(planar),
+        Reference::Free => directions(planar),
         _ => &[],
     }
 }
@@ -192,7 +192,7 @@ fn velocities(system: &System, planar: bool) -> Vec<Row> {
     for (k, element) in system.elements.iter().enumerate() {
         match &element.joint {
             Joint::Ball => {
-                let axes = ball::axes(planar).len();
+                let axes = axes_of_rotation(planar).len();
                 rows.extend((0..axes).map(|j| Some((k, j))));
             }
             Joint::Freedoms(freedoms) => {
@@ -302,7 +302,7 @@ fn columns(
 ) -> Vec<Column> {
     let element = &system.elements[k];
     let Joint::Freedoms(freedoms) = &element.joint else {
-        let axes = ball::axes(planar);
+        let axes = axes_of_rotation(planar);
         let unit = |i: &usize| std::array::from_fn(|j| f64::from(i + 3 == j));
         return axes.iter().map(unit).collect();
     };

@@ -10,11 +10,14 @@
 
 pub(crate) mod applied;
 pub(crate) mod channel;
+pub(crate) mod coordinate;
 mod criteria;
 pub(crate) mod curve;
 mod element;
+mod follows;
 mod formula;
 pub(crate) mod hysteresis;
+pub(crate) mod joint;
 pub(crate) mod kinematics;
 mod mobility;
 pub(crate) mod name;
@@ -26,18 +29,21 @@ pub(crate) mod quantity;
 pub(crate) mod regularity;
 pub(crate) mod run;
 pub(crate) mod rust;
+pub(crate) mod surface;
 mod switch;
 mod system;
 mod translation;
 mod units;
 mod vehicle;
 
+use self::surface::surface;
 use super::{
     Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
     Parameter, Shown, Switch, System, Vehicle,
 };
 use crate::description::force::Attachment as WrittenEnd;
-use crate::description::load::{Header, Loaded, load, read_file, read_model, shown};
+use crate::description::language::Language;
+use crate::description::load::{Header, Loaded, load, shown};
 use crate::description::mend::item_mentions;
 use crate::description::output::Column;
 use crate::description::place::At;
@@ -51,8 +57,8 @@ use crate::description::{
 };
 use crate::diagnostic::{Diagnostics, quoted, suggestion};
 use crate::law::belt::check::check_belts;
-use crate::law::contact::check::surface;
 use crate::model::units::{Unit, UnitSystem, Units};
+use joint::{Spelling, Word};
 use name::Style;
 use quantity::LENGTH;
 use regularity::check_regularity;
@@ -60,35 +66,14 @@ use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Reads a model and the files it includes.
-///
-/// Returns the model and every file read, the model's own first. An `Err` holds every problem found, with its place.
-pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
-    let read = read_model(path)?;
-    read_str(&read.name, &read.text, &read_file).map_err(|found| read.in_file(found))
-}
-
-/// Reads a model from text. `loader` returns the text of included files.
-///
-/// `name` is the name of the file in messages. Paths of included files are relative to it: a model `models/sled.yaml`
-/// that includes `data/child.yaml` asks `loader` for `models/data/child.yaml`. Returns the model and the names of the
-/// files read.
-pub fn read_str(
-    name: &str,
-    text: &str,
-    loader: &dyn Fn(&Path) -> io::Result<String>,
-) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
-    let (resolved, loaded) = resolve(name, text, loader)?;
-    Ok((resolved.model, loaded.paths))
-}
-
-/// Like [`read`], but without the Rust files of user forces, which may be missing: for writing these files.
-pub fn read_without_sources(
-    name: &str,
-    text: &str,
-    loader: &dyn Fn(&Path) -> io::Result<String>,
-) -> Result<Model, Diagnostics> {
-    resolve_with(name, text, loader, false).map(|(resolved, _)| resolved.model)
+/// The kinds of joints that the language knows, and how each is read. Whoever reads a model hands them in.
+pub struct Kinds {
+    /// The kinds as written.
+    pub language: &'static Language,
+    /// The keys of a joint that stand for degrees of freedom.
+    pub(crate) spellings: &'static [Spelling],
+    /// The words for joints that need no keys.
+    pub(crate) words: &'static [Word],
 }
 
 /// A model before and after normalisation.
@@ -102,24 +87,17 @@ pub struct Resolved {
     pub criteria: Option<Criteria>,
 }
 
-/// Loads and resolves a model. Returns the model and the loaded texts.
-pub fn resolve(
-    name: &str,
-    text: &str,
-    loader: &dyn Fn(&Path) -> io::Result<String>,
-) -> Result<(Resolved, Loaded), Diagnostics> {
-    resolve_with(name, text, loader, true)
-}
-
-fn resolve_with(
+/// Loads and resolves a model, with or without the Rust files of user forces. Returns the model and the loaded texts.
+pub(crate) fn resolve(
+    kinds: &'static Kinds,
     name: &str,
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
     with_sources: bool,
 ) -> Result<(Resolved, Loaded), Diagnostics> {
-    let mut loaded = load(name, text, loader, with_sources)?;
-    let problems = Problems::default();
-    let model = Resolver::new(&problems, &loaded).model(&loaded);
+    let mut loaded = load(kinds.language, name, text, loader, with_sources)?;
+    let problems = Problems::new(kinds.language);
+    let model = Resolver::new(kinds, &problems, &loaded).model(&loaded);
     let (mut found, _) = problems.into_parts();
     found.retain(|problem| !loaded.lost.explains(problem));
     let mut all = std::mem::take(&mut loaded.problems);
@@ -143,6 +121,7 @@ fn resolve_with(
 /// `problems`, and returns the checked form. Only the steps of [`Resolver::model`] enter checked forms here, with one
 /// exception: curves that are written in place are entered when they are checked.
 pub struct Resolver<'a> {
+    pub(crate) kinds: &'static Kinds,
     pub(crate) problems: &'a Problems,
     pub(crate) planar: bool,
     /// Tables of points of curves, by file.
@@ -185,8 +164,9 @@ pub struct Resolver<'a> {
 }
 
 impl<'a> Resolver<'a> {
-    pub(crate) fn new(problems: &'a Problems, loaded: &'a Loaded) -> Self {
+    pub(crate) fn new(kinds: &'static Kinds, problems: &'a Problems, loaded: &'a Loaded) -> Self {
         Resolver {
+            kinds,
             problems,
             planar: loaded.header.dimension == WrittenDimension::Plane,
             tables: &loaded.tables,
@@ -520,3 +500,19 @@ pub(crate) const NOWHERE: [Number; 3] = [Number::ZERO; 3];
 
 /// The absolute axes by name.
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// A vector, scaled to length 1. Its components must be neither so large nor so small that their squares overflow or
+/// lose digits.
+pub(crate) fn unit(resolver: &Resolver<'_>, vector: [Number; 3]) -> [Number; 3] {
+    let length = if vector.iter().all(|n| n.constant().is_some()) {
+        let squares = vector.iter().map(|n| {
+            let n = n.value(&resolver.defaults);
+            n * n
+        });
+        Number::Constant(squares.sum::<f64>().sqrt())
+    } else {
+        let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
+        Number::square_root(squares.fold(Number::ZERO, Number::sum))
+    };
+    vector.map(|n| Number::quotient(n, length.clone()))
+}

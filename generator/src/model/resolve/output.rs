@@ -1,6 +1,7 @@
 //! Outputs: their quantities, and the units of their columns.
 
 use super::channel::{self, Wanted};
+use super::joint::freedom_named;
 use super::quantity::LENGTH;
 use super::units::unit_shown;
 use super::vehicle::vehicle_named;
@@ -9,7 +10,6 @@ use crate::description::output::{Axis, Component as WrittenComponent, Output as 
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
-use crate::law::joint::check::freedom_named;
 use crate::law::{Asked, LAWS, Registered};
 use crate::model::{
     Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Number, Output, PointQuantity,

@@ -2,6 +2,8 @@
 
 use super::channel::{Anatomy as BodyAxes, BodyPart};
 use super::element::tree;
+use super::follows::start_followers;
+use super::joint::freedoms_at_start;
 use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
 use super::translation::{Ways, translation};
 use super::vehicle::{ridden_at_start, vehicle_named};
@@ -15,7 +17,6 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::joint::{freedoms_at_start, start_followers};
 use crate::model::{Element, Joint, Number, Reference, System};
 
 /// Everything that the files say about a system: its description, and then changes of it.

@@ -1,7 +1,7 @@
 //! Slips of the pen, made at many lines of the bundled models: the message names the line, and one mistake neither hides nor invents another.
-
 use bryant_generator::Diagnostics;
-use bryant_generator::model::read_str;
+use bryant_generator::read_str;
+
 use std::path::{Path, PathBuf};
 
 fn models() -> PathBuf {

@@ -5,58 +5,15 @@
 //! A follower has no coordinate. With its own column H, it adds ratio · H to the motion of its element per velocity of the leader. If the leader
 //! follows another one, the follower follows the first: q = a (b q' + c) + d = a b q' + (a c + d).
 
-use super::{Freedom, Joint};
+use super::Resolver;
+use super::joint::{freedom_named, spellings};
 use crate::description::joint::{
     Follows as Written, Freedom as WrittenFreedom, Joint as WrittenJoint,
 };
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
-use crate::law::joint::check::freedom_named;
-use crate::model::resolve::Resolver;
-use crate::model::{Element, Number};
-use serde::Serialize;
+use crate::model::{Element, Follows, Freedom, Joint, Number};
 use std::collections::BTreeMap;
-
-/// The relation of a degree of freedom to its leader: q = ratio · q of the leader + offset. The follower has no
-/// coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Follows {
-    /// The element of the leader, in the same system.
-    pub element: usize,
-    /// Index of the leader among the degrees of freedom of that element's joint. The leader itself follows no other.
-    pub freedom: usize,
-    /// dq/dq of the leader \[rad/rad, m/m, m/rad or rad/m\].
-    pub ratio: Number,
-    /// q of the follower when the coordinate of the leader is 0 \[rad\] or \[m\].
-    pub offset: Number,
-}
-
-impl Follows {
-    /// Index of the leader's coordinate among those of its element.
-    pub fn coordinate(&self, elements: &[Element]) -> usize {
-        let before = &elements[self.element].joint.freedoms()[..self.freedom];
-        before.iter().filter(|freedom| freedom.is_own()).count()
-    }
-
-    /// The relation of a degree of freedom that follows this follower (q = ratio · q of this follower + offset) to this
-    /// follower's leader.
-    fn followed(self, ratio: Number, offset: Number) -> Self {
-        let shift = Number::product(ratio.clone(), self.offset);
-        Follows {
-            ratio: Number::product(ratio, self.ratio),
-            offset: Number::sum(shift, offset),
-            ..self
-        }
-    }
-
-    /// Position and rate of the follower at the start.
-    fn start(&self, elements: &[Element]) -> [Number; 2] {
-        let leader = &elements[self.element].joint.freedoms()[self.freedom];
-        let times = |n: &Number| Number::product(self.ratio.clone(), n.clone());
-        let position = Number::sum(times(&leader.position), self.offset.clone());
-        [position, times(&leader.rate)]
-    }
-}
 
 /// A degree of freedom: its element, and its index in the joint of the element.
 type Place = (usize, usize);
@@ -74,14 +31,14 @@ pub(crate) fn couple(
         let mut first = 0;
         for (one, at) in joint.each(*at) {
             let place = at.key("follows");
-            if let (Some(follows), 1) = (&one.follows, width(one))
+            if let (Some(follows), 1) = (&one.follows, width(resolver, one))
                 && first < elements[k].joint.freedoms().len()
                 && let Some(follows) =
                     leader(resolver, system, follows, place, (k, first), elements)
             {
                 coupled.insert((k, first), (follows, place));
             }
-            first += width(one);
+            first += width(resolver, one);
         }
     }
     for (&(k, j), (_, at)) in &coupled {
@@ -199,9 +156,9 @@ pub(crate) fn start_followers(elements: &mut [Element]) {
 }
 
 /// The number of degrees of freedom of a joint as written.
-fn width(written: &WrittenFreedom) -> usize {
-    let spellings = written.spellings();
+fn width(resolver: &Resolver<'_>, written: &WrittenFreedom) -> usize {
+    let spellings = spellings(resolver, written);
     spellings
         .first()
-        .map_or(1, |spelling| spelling.coordinates.len())
+        .map_or(1, |spelling| spelling.written.coordinates.len())
 }

@@ -6,7 +6,7 @@
 //! `twist` gives the same for the equations, as expressions.
 
 use super::Freedom;
-use crate::model::resolve::kinematics::{cross, plus, sum, times, values};
+use super::resolve::kinematics::{cross, plus, sum, times, values};
 use crate::rotation::{IDENTITY, Matrix, Vector, apply, product};
 
 /// A column of H: the velocity of the origin, then the angular velocity.

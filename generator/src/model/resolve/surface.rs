@@ -1,12 +1,84 @@
-//! Planes that ellipsoids meet: their directions and their edges.
+//! The surfaces of a description: ellipsoids, and planes with their directions and edges.
 
-use super::check::EDGE_WIDTH;
-use super::keys::{EdgeRule as WrittenRule, Plane as Written};
+use super::name::Style;
+use super::quantity::{ANGLE, LENGTH, PURE};
+use super::{NOWHERE, Resolver, unit};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
-use crate::model::resolve::quantity::{LENGTH, PURE};
-use crate::model::resolve::{NOWHERE, Resolver};
-use crate::model::{Attachment, EdgeRule, Extent, Number, Plane};
+use crate::description::surface::{
+    EdgeRule as WrittenRule, Ellipsoid as WrittenEllipsoid, Plane as Written, Surface,
+};
+use crate::model::{Attachment, EdgeRule, Ellipsoid, Extent, Number, Plane, Shown};
+
+/// Largest degree of an ellipsoid: its corners then have a radius of a hundredth of its size.
+const MAX_DEGREE: f64 = 100.0;
+
+/// Smallest default of the width over which a force fades at an edge \[m\].
+pub(crate) const EDGE_WIDTH: f64 = 10e-3;
+
+/// Checks a named surface, even if no contact names it.
+pub(crate) fn surface(
+    resolver: &Resolver<'_>,
+    name: &str,
+    written: &Surface,
+    at: At<'_>,
+) -> Option<Shown> {
+    resolver.check_name(name, "a surface", Style::Either, at.on_key());
+    match written {
+        Surface::Ellipsoid(written) => {
+            let round = ellipsoid(resolver, written, at);
+            let degree = degree(resolver, written.degree.as_ref(), at.key("degree"));
+            round.map(|round| Shown::Round(round, degree))
+        }
+        Surface::Plane(written) => plane(resolver, written, at).map(Shown::Plane),
+    }
+}
+
+/// The checked form of an ellipsoid. The caller must check the degree.
+pub(crate) fn ellipsoid(
+    resolver: &Resolver<'_>,
+    written: &WrittenEllipsoid,
+    at: At<'_>,
+) -> Option<Ellipsoid> {
+    let center = Attachment {
+        on: resolver.body(&written.on, at.key("on"))?,
+        at: resolver.vector(&written.center, at.key("center"), LENGTH),
+    };
+    let semi_axes = resolver.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
+    let axes = match &written.axes {
+        Some(axes) => resolver.rotation(axes, at.key("axes"), ANGLE),
+        None => NOWHERE,
+    };
+    Some(Ellipsoid {
+        center,
+        semi_axes,
+        axes,
+    })
+}
+
+/// The degree of an ellipsoid; 2 if none is written.
+pub(crate) fn degree(resolver: &Resolver<'_>, written: Option<&Quantity>, at: At<'_>) -> u32 {
+    let Some(quantity) = written else { return 2 };
+    let (number, value) = resolver.valued(quantity, at, PURE);
+    let Some(value) = value else { return 2 };
+    let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
+    if number.constant().is_none() {
+        resolver.problems.add(at.problem(
+            "the degree depends on a parameter",
+            "give a number: it decides which code is generated",
+        ));
+    } else if !even {
+        resolver.problems.add(at.problem(
+            format!("the degree of an ellipsoid is {value}"),
+            format!(
+                "give an even number from 2, the ellipsoid itself, to {MAX_DEGREE}, nearly a box"
+            ),
+        ));
+    } else {
+        return value as u32;
+    }
+    2
+}
 
 /// The checked form of a plane.
 pub(crate) fn plane(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Plane> {
@@ -31,22 +103,6 @@ fn normal(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> [Number; 3] {
         true => vector,
         false => unit(resolver, vector),
     }
-}
-
-/// A vector, scaled to length 1. Its components must be neither so large nor so small that their squares overflow or
-/// lose digits.
-pub(crate) fn unit(resolver: &Resolver<'_>, vector: [Number; 3]) -> [Number; 3] {
-    let length = if vector.iter().all(|n| n.constant().is_some()) {
-        let squares = vector.iter().map(|n| {
-            let n = n.value(&resolver.defaults);
-            n * n
-        });
-        Number::Constant(squares.sum::<f64>().sqrt())
-    } else {
-        let squares = vector.iter().map(|n| Number::product(n.clone(), n.clone()));
-        Number::square_root(squares.fold(Number::ZERO, Number::sum))
-    };
-    vector.map(|n| Number::quotient(n, length.clone()))
 }
 
 /// In space, the direction along the plane: that of the key `along`, or the direction in the plane that is nearest to

@@ -1,35 +1,11 @@
-//! The kind of coordinate of a degree of freedom: an angle or a length.
+//! The physical quantities that belong to the coordinate of a degree of freedom.
 
-use crate::model::resolve::quantity::{
+use super::quantity::{
     ANGLE, ANGLE_PER_LENGTH, Expected, INERTIA, LENGTH, LENGTH_PER_ANGLE, MASS, PURE, RATE, SPEED,
 };
-
-/// An angle, or a length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coordinate {
-    /// \[rad\]
-    Angle,
-    /// \[m\]
-    Length,
-}
+use crate::description::joint::Coordinate;
 
 impl Coordinate {
-    /// The default name of a degree of freedom with this kind of coordinate.
-    pub fn name(self) -> &'static str {
-        match self {
-            Coordinate::Angle => "angle",
-            Coordinate::Length => "position",
-        }
-    }
-
-    /// SI units of the coordinate and of its rate.
-    pub fn units(self) -> [&'static str; 2] {
-        match self {
-            Coordinate::Angle => ["rad", "rad/s"],
-            Coordinate::Length => ["m", "m/s"],
-        }
-    }
-
     /// The physical quantity of a coordinate.
     pub(crate) fn value(self) -> Expected {
         match self {
