@@ -19,7 +19,7 @@
 use super::cause::{self, Cause};
 use super::conditioning;
 use super::run;
-use super::setting::{Curves, Pace, Setting};
+use super::setting::{Pace, Setting};
 use super::target::{Difference, FINEST, SHRUNK, largest, rounded};
 use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::Formula;
@@ -230,7 +230,6 @@ fn sharper(setting: &Setting) -> Setting {
         pace: Pace::Tolerance(tolerance),
         scalar: Scalar::F64,
         locate: setting.locate || tolerance < LOCATED,
-        curves: Curves::Written,
     }
 }
 
@@ -252,7 +251,6 @@ mod tests {
                     pace,
                     scalar: Scalar::F64,
                     locate: false,
-                    curves: Curves::Written,
                 };
                 let check = sharper(&setting);
                 assert_ne!(check.formula, formula);

@@ -13,7 +13,7 @@
 //! Rosenbrock method.
 
 use super::conditioning;
-use super::setting::{Curves, Pace, Setting};
+use super::setting::{Pace, Setting};
 use crate::simulation::{self, Recording, Runs};
 use crate::table::{Column, Table};
 use bryant_runtime::Formula;
@@ -247,7 +247,6 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         pace: Pace::Tolerance(rounded(wanted).clamp(100.0 * FINEST, COARSEST)),
         scalar: Scalar::F64,
         locate: wanted < HIGH,
-        curves: Curves::Written,
     };
     let mut recording = simulation::run(model, &setting.job(job), progress);
     let mut estimate: Option<Difference> = None;
@@ -334,7 +333,6 @@ pub fn second_opinion(setting: &Setting) -> Setting {
         pace: Pace::Tolerance(rounded(1e-2 * tolerance).clamp(FINEST, 1e-6)),
         scalar: Scalar::F64,
         locate: true,
-        curves: setting.curves,
     }
 }
 
@@ -409,7 +407,6 @@ mod tests {
                 pace: Pace::Tolerance(1e-4),
                 scalar: Scalar::F64,
                 locate: false,
-                curves: Curves::Written,
             };
             let opinion = second_opinion(&setting);
             assert!(opinion.formula != formula && opinion.locate);

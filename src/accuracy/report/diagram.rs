@@ -1,22 +1,19 @@
 //! The work–precision diagram of a study.
 
-use super::text::schemes;
-use crate::accuracy::conclusion::{Conclusion, cost};
-use crate::accuracy::point::Point;
-use crate::accuracy::setting::{Curves, Pace, Setting};
+use crate::accuracy::conclusion::{Conclusion, cost, schemes};
+use crate::accuracy::setting::{Pace, Setting, time};
 use crate::accuracy::study::Study;
 use crate::picture::work_precision::{Diagram, Line};
 use bryant_runtime::program::Scalar;
 
-/// The diagram of a study, without points with exchanged curves, because these belong to another scene.
+/// The diagram of a study.
 pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
     let schemes = schemes(study);
-    let drawn = |point: &&Point| point.setting.curves == Curves::Written;
-    let points: Vec<&Point> = study.points.iter().filter(drawn).collect();
-    let there = |variant: &&(Scalar, bool)| points.iter().any(|p| of(&p.setting) == **variant);
+    let there =
+        |variant: &&(Scalar, bool)| study.points.iter().any(|p| of(&p.setting) == **variant);
     let variants: Vec<(Scalar, bool)> = VARIANTS.iter().filter(there).copied().collect();
     let mut lines: Vec<(Setting, Line)> = Vec::new();
-    for point in &points {
+    for point in &study.points {
         let setting = &point.setting;
         let (Some(method), Some(variant)) = (
             schemes.iter().position(|s| *s == setting.scheme()),
@@ -47,19 +44,18 @@ pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
         let cost = cost(study, &study.points[index]);
         [cost.error, cost.time]
     });
-    let own = study.own(Curves::Written);
     Diagram {
         title: format!(
             "{}: what accuracy costs in time, {} simulated",
             study.model,
-            super::super::setting::time(study.duration)
+            time(study.duration)
         ),
         error: study.of.name(&study.reference.readings),
         methods: schemes.iter().map(|s| s.name()).collect(),
         variants: variants.iter().map(|v| name(*v, &variants)).collect(),
         lines: lines.into_iter().map(|(_, line)| line).collect(),
         front: front.collect(),
-        own: own.of(study.of),
+        own: study.reference.own.of(study.of),
         sentence: conclusion.sentence(study),
     }
 }
