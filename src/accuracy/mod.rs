@@ -17,10 +17,12 @@
 //! | [`report`] | a study as a table, a page, CSV, JSON and a diagram |
 //! | [`target`] | a run of a requested accuracy |
 //! | [`check`] | a run of the promised accuracy, checked by a second run |
+//! | [`comparison`] | what two runs must agree in, and how much sharper the next one is |
 //! | [`conditioning`], [`cause`] | how precisely an output can be known; why two runs do not agree |
 
 pub mod cause;
 pub mod check;
+pub mod comparison;
 pub mod conclusion;
 pub mod conditioning;
 pub mod fastest;

@@ -1,6 +1,6 @@
 //! A setting is one way to compute a motion: formula, pace, scalar, kinks.
 
-use bryant_runtime::program::{Job, Scalar};
+use bryant_runtime::program::{Job, RunError, Scalar};
 use bryant_runtime::{Adaptive, Formula, Method, Report, Tolerances};
 
 /// The setting of a run.
@@ -81,10 +81,11 @@ impl Setting {
         }
     }
 
-    /// The setting that the run actually used: without switching if the scene was not stiff.
-    pub fn as_run(self, report: &Report) -> Setting {
+    /// The setting that a run with this result used: without switching if the scene was not stiff.
+    pub fn as_run(self, result: &Result<Report, RunError>) -> Setting {
+        let stiff = result.as_ref().is_ok_and(|report| report.stiff > 0);
         Setting {
-            switches: self.switches && report.stiff > 0,
+            switches: self.switches && (stiff || result.is_err()),
             ..self
         }
     }
