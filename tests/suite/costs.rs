@@ -35,6 +35,8 @@ fn structure(svg: &str) -> Vec<String> {
         )
     };
     let mut parts: Vec<String> = svg.lines().filter_map(line).collect();
+    // lines of other variants come in another order
+    parts.sort();
     // the legend has a column of its own, to the right of the frame
     let legend = svg.lines().filter(|line| line.contains(" x=\"748\" "));
     let method = |line: &str| Some(line.split_once('>')?.1.split(", ").next()?.to_owned());
