@@ -91,9 +91,11 @@ fn value(table: &Table, index: usize, response: Response) -> f64 {
 mod tests {
     use super::*;
 
-    fn table(samples: usize, outputs: &[(&str, &str, &dyn Fn(f64) -> f64)]) -> Table {
+    type Signal<'a> = &'a dyn Fn(f64) -> f64;
+
+    fn table(samples: usize, outputs: &[(&str, &str, Signal<'_>)]) -> Table {
         let times: Vec<f64> = (0..samples).map(|i| i as f64 * 1e-3).collect();
-        let column = |(name, unit, of): &(&str, &str, &dyn Fn(f64) -> f64)| Column {
+        let column = |(name, unit, of): &(&str, &str, Signal<'_>)| Column {
             name: name.to_string(),
             unit: unit.to_string(),
             values: times.iter().map(|t| of(*t)).collect(),
