@@ -1,4 +1,4 @@
-//! A table of columns with units: as text for people, as CSV, as JSON.
+//! A table of columns with units: as text for people, as CSV, as JSON; and columns of words side by side.
 //!
 //! In text, the number of decimals of a column follows from its unit (newtons without decimals, metres to the
 //! millimetre); there are more if three digits of the largest value need them. Files have all digits.
@@ -53,14 +53,7 @@ impl Table {
             .iter()
             .map(|column| Cells::new(column, layout.digits))
             .collect();
-        let mut text = String::new();
-        for (index, block) in blocks(&cells, layout.width).into_iter().enumerate() {
-            if index > 0 {
-                text.push('\n');
-            }
-            block_text(&cells, &block, &mut text);
-        }
-        text
+        side_by_side(&cells, layout.width)
     }
 
     /// A number as a table for people shows it.
@@ -140,23 +133,47 @@ fn number(value: f64) -> String {
 }
 
 /// The texts of a column.
-struct Cells {
+pub struct Cells {
     heading: Vec<String>,
     unit: String,
     values: Vec<String>,
     width: usize,
+    left: bool,
+}
+
+/// Columns as aligned text: headings, units, a line for each row. Columns that do not fit into lines of `width`
+/// characters are printed below, again with the first column.
+pub fn side_by_side(columns: &[Cells], width: Option<usize>) -> String {
+    let mut text = String::new();
+    for (index, block) in blocks(columns, width).into_iter().enumerate() {
+        if index > 0 {
+            text.push('\n');
+        }
+        block_text(columns, &block, &mut text);
+    }
+    text
 }
 
 impl Cells {
     fn new(column: &Column, digits: Option<usize>) -> Self {
         let format = Format::of(column, digits);
-        let values: Vec<String> = column.values.iter().map(|v| format.print(*v)).collect();
         let unit = match column.unit.as_str() {
-            "" => "[-]".to_owned(),
+            "" => "-",
+            unit => unit,
+        };
+        let values = column.values.iter().map(|v| format.print(*v));
+        Cells::of_words(&column.name, unit, values.collect())
+    }
+
+    /// A column of these texts, right-aligned; one without a unit has none in its heading.
+    pub fn of_words(name: &str, unit: &str, values: Vec<String>) -> Self {
+        let unit = match unit {
+            "" => String::new(),
             unit => format!("[{}]", typeset(unit)),
         };
-        let widest = values.iter().map(|v| v.len()).max().unwrap_or(0);
-        let heading = wrap(&column.name, HEADING.max(widest));
+        let widths = values.iter().map(|v| v.chars().count());
+        let widest = widths.max().unwrap_or(0);
+        let heading = wrap(name, HEADING.max(widest));
         let width = heading
             .iter()
             .chain([&unit])
@@ -167,7 +184,13 @@ impl Cells {
             unit,
             values,
             width,
+            left: false,
         }
+    }
+
+    /// The column, left-aligned.
+    pub fn left_aligned(self) -> Self {
+        Cells { left: true, ..self }
     }
 }
 
@@ -286,7 +309,10 @@ fn block_text(cells: &[Cells], block: &[usize], text: &mut String) {
             let (gap, width) = (if position == 0 { 0 } else { GAP }, cells[index].width);
             let content = cell(&cells[index]);
             // the width is in characters, not bytes, because units have superscripts
-            let _ = write!(text, "{:gap$}{content:>width$}", "");
+            let _ = match cells[index].left {
+                true => write!(text, "{:gap$}{content:<width$}", ""),
+                false => write!(text, "{:gap$}{content:>width$}", ""),
+            };
         }
         text.truncate(text.trim_end().len());
         text.push('\n');

@@ -36,7 +36,7 @@ const LETTER: f64 = 7.4;
 const LINE: f64 = 15.0;
 
 /// Axes in a frame.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Axes {
     /// Left, top, width, height \[px\].
     pub frame: [f64; 4],
@@ -44,6 +44,8 @@ pub struct Axes {
     pub ranges: [Range<f64>; 2],
     /// The values of the ticks, horizontally and vertically.
     pub ticks: [Vec<f64>; 2],
+    /// The label of a tick, for its value and the distance between ticks, horizontally and vertically.
+    pub labels: [fn(f64, f64) -> String; 2],
 }
 
 impl Axes {
@@ -63,6 +65,7 @@ impl Axes {
             frame,
             ranges,
             ticks,
+            labels: [label; 2],
         }
     }
 
@@ -85,13 +88,13 @@ impl Axes {
         for x in &self.ticks[0] {
             let [at, _] = self.place([*x, self.ranges[1].start]);
             grid.push(([at, top], [at, top + height]));
-            let text = label(*x, step(&self.ticks[0]));
+            let text = self.labels[0](*x, step(&self.ticks[0]));
             drawing.label("tick", [at, top + height + 16.0], Anchor::Middle, &text);
         }
         for y in &self.ticks[1] {
             let [_, at] = self.place([self.ranges[0].start, *y]);
             grid.push(([left, at], [left + width, at]));
-            let text = label(*y, step(&self.ticks[1]));
+            let text = self.labels[1](*y, step(&self.ticks[1]));
             drawing.label("tick", [left - 6.0, at + 4.0], Anchor::End, &text);
         }
         drawing.lines("grid", &grid);

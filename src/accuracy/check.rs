@@ -5,11 +5,6 @@
 //! itself), the run is repeated, each time at a tenth of the tolerance and by the other formula, until two successive
 //! runs agree. The sharper of the two is the result.
 //!
-//! A quantity that is exactly 0, such as the velocity of a ball at rest, decreases with the tolerance, and two runs
-//! never agree on it. An output counts as such a quantity if its size has fallen below a hundredth of that in the first
-//! run. Its size in the sharpest run is then an upper bound, and its relative error does not count. The same holds for
-//! an output that consists of [rounding errors](super::conditioning).
-//!
 //! Where the scene is stiff, the second run changes to the Rosenbrock method, as the first one does. There both use the
 //! same formula, but the second has a tenth of the tolerance.
 //!
@@ -17,20 +12,15 @@
 //! difference exceeds [`FAR`].
 
 use super::cause::{self, Cause};
-use super::conditioning;
+use super::comparison::{Comparison, PROMISED, sharper};
 use super::run;
-use super::setting::{Curves, Pace, Setting};
-use super::target::{Difference, FINEST, SHRUNK, largest, rounded};
+use super::setting::{Pace, Setting};
+use super::target::{Difference, FINEST, second_opinion};
 use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::Formula;
-use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};
-use bryant_runtime::response::Answer;
 use std::time::{Duration, Instant};
 
-/// The error of each output, relative to its largest magnitude, that a run promises unless the user requests another
-/// accuracy.
-pub const PROMISED: f64 = 1e-3;
 /// A run by any method is wrong if it differs from its check by more than this share.
 pub const FAR: f64 = 0.1;
 /// Time limit of the check and all sharper runs together: the larger of this time \[s\], and this multiple of the time
@@ -42,18 +32,29 @@ const LOCATED: f64 = 1e-8;
 /// Tolerance below which a method of order 8 is cheaper.
 const HIGH: f64 = 1e-10;
 
-/// A run and the result of its check.
+/// A run, and what other runs of its job tell about its error.
 #[derive(Clone, Debug)]
 pub struct Checked {
     /// The run, or the sharpest run, which replaces it.
     pub recording: Recording,
-    /// The setting of this run.
-    pub setting: Setting,
-    /// The difference of the first run from its check, if sharper runs followed.
-    pub first: Option<Difference>,
+    /// What is known about its error.
+    pub certainty: Certainty,
+}
+
+/// What is known about the error of a run.
+#[derive(Clone, Debug)]
+pub struct Certainty {
+    /// The setting of the run, if the program chose it.
+    pub setting: Option<Setting>,
+    /// The error that the user allows.
+    pub wanted: Option<f64>,
     /// Number of all runs.
     pub runs: usize,
-    /// The setting of the second run, and its verdict; `None` if the run failed.
+    /// The error, estimated by sharper and sharper runs; `None` if no two of them could be compared.
+    pub estimate: Option<Difference>,
+    /// The difference of the first run from its check, if sharper runs followed.
+    pub first: Option<Difference>,
+    /// The setting of the second run, and its verdict; `None` if there is none.
     pub check: Option<(Setting, Verdict)>,
     /// The run cannot be trusted if it differs from its check by more than this share.
     pub limit: f64,
@@ -61,6 +62,23 @@ pub struct Checked {
     pub out_of_time: bool,
     /// The reason why the run is less accurate than promised, although sharper runs followed.
     pub cause: Option<Cause>,
+}
+
+impl Certainty {
+    /// Nothing is known about the error of the first run, which must not differ from a check by more than `limit`.
+    pub fn none(limit: f64) -> Self {
+        Certainty {
+            setting: None,
+            wanted: None,
+            runs: 1,
+            estimate: None,
+            first: None,
+            check: None,
+            limit,
+            out_of_time: false,
+            cause: None,
+        }
+    }
 }
 
 /// The result of a second run.
@@ -82,87 +100,90 @@ pub fn run(
     chosen: bool,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Checked {
-    let mut checked = Checked {
-        recording: simulation::run(model, job, &mut |t| progress(0, t)),
-        setting: Setting::of(job),
-        first: None,
-        runs: 1,
-        check: None,
-        limit: if chosen { FAR } else { PROMISED },
-        out_of_time: false,
-        cause: None,
-    };
-    let Ok(report) = &checked.recording.result else {
-        return checked;
-    };
-    checked.setting = checked.setting.as_run(report);
+    let mut recording = simulation::run(model, job, &mut |t| progress(0, t));
+    let mut known = Certainty::none(if chosen { FAR } else { PROMISED });
+    if recording.result.is_ok() {
+        let of = (&mut recording, &mut known);
+        sharpen(model, job, chosen, of, progress);
+    }
+    Checked {
+        recording,
+        certainty: known,
+    }
+}
+
+/// Checks a run, and replaces it by sharper ones until two of them agree.
+fn sharpen(
+    model: &dyn Runs,
+    job: &Job,
+    chosen: bool,
+    (recording, known): (&mut Recording, &mut Certainty),
+    progress: &mut dyn FnMut(usize, f64),
+) {
+    let mut setting = Setting::of(job).as_run(&recording.result);
     let begin = Instant::now();
-    let wall = checked.recording.wall.as_secs_f64();
+    let wall = recording.wall.as_secs_f64();
     let end = LONGEST[0].max(LONGEST[1] * wall);
-    let columns = checked.recording.table.columns.iter().skip(1);
-    let shrunk: Vec<f64> = columns
-        .map(|output| SHRUNK * largest(&output.values))
-        .collect();
     let mut patience = end;
-    let first = checked.recording.answers.clone();
-    let asked = &job.reading.asked[..];
-    let (mut floors, mut rounding) = (Vec::new(), Vec::new());
+    let mut comparison = Comparison::of(model, job, &recording.answers);
     loop {
-        let opinion = sharper(&checked.setting);
-        let mut hear = |t: f64| progress(checked.runs, t);
+        let opinion = opinion(&setting);
+        let mut hear = |t: f64| progress(known.runs, t);
         let second = second(model, job, &opinion, patience, &mut hear);
-        let opinion = second
-            .result
-            .as_ref()
-            .map_or(opinion, |report| opinion.as_run(report));
-        let answers = (asked, &first[..]);
-        let mut verdict = Verdict::of(&checked.recording, &second, &floors, answers, patience);
-        checked.runs += 1;
-        let mut close = verdict.is_close();
-        if let (false, true, Verdict::Apart(difference)) = (close, rounding.is_empty(), &verdict) {
-            rounding = conditioning::reach(model, job, &checked.recording, &difference.outputs);
-            let beyond = Verdict::of(&checked.recording, &second, &rounding, answers, patience);
-            close = beyond.is_close();
-            if close || chosen {
-                verdict = beyond;
-            }
-        }
+        let opinion = opinion.as_run(&second.result);
+        let verdict = Verdict::of(&mut comparison, (job, recording), &second, patience);
+        known.runs += 1;
         let Verdict::Apart(difference) = &verdict else {
             // a sharper run that failed says nothing new: the comparison before it remains valid
-            match checked.first {
-                None => checked.check = Some((opinion, verdict)),
-                Some(_) => checked.out_of_time = matches!(verdict, Verdict::TooLong(_)),
+            match known.first {
+                None => known.check = Some((opinion, verdict)),
+                Some(_) => known.out_of_time = matches!(verdict, Verdict::TooLong(_)),
             }
-            return checked;
+            return;
         };
-        let finest = matches!(opinion.pace, Pace::Tolerance(tolerance) if tolerance <= FINEST);
-        if chosen || (close && checked.first.is_none()) {
-            checked.check = Some((opinion, verdict));
-            return checked;
+        let close = difference.is_within(PROMISED);
+        if chosen || (close && known.first.is_none()) {
+            known.check = Some((opinion, verdict));
+            return;
         }
-        checked.first.get_or_insert_with(|| difference.clone());
-        checked.check = Some((checked.setting, verdict));
-        (checked.recording, checked.setting) = (second, opinion);
-        floors = shrunk.clone();
-        for (floor, rounding) in floors.iter_mut().zip(&rounding) {
-            *floor = floor.max(*rounding);
+        if known.first.is_none() {
+            known.first = Some(difference.clone());
+            comparison.leave_out_what_shrinks(recording);
         }
+        known.check = Some((setting, verdict));
+        (*recording, setting) = (second, opinion);
+        known.setting = Some(setting);
+        let finest = opinion.pace.value() <= FINEST;
         patience = end - begin.elapsed().as_secs_f64();
-        checked.out_of_time = patience <= 0.0 && !close && !finest;
-        if close || finest || checked.out_of_time {
-            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &checked.check) {
+        known.out_of_time = patience <= 0.0 && !close && !finest;
+        if close || finest || known.out_of_time {
+            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &known.check) {
                 let patience = Duration::try_from_secs_f64(end).unwrap_or(Duration::MAX);
-                let job = checked.setting.job(job);
-                let of = (&checked.recording, difference);
-                checked.cause = Some(cause::find(model, &job, of, &rounding, patience));
+                let job = setting.job(job);
+                let of = (&*recording, difference);
+                known.cause = Some(cause::find(model, &job, of, &comparison.rounding, patience));
             }
-            return checked;
+            return;
         }
     }
 }
 
+/// Checks the run of a setting by a far sharper one, however long that takes. `made_by` is the job of the run.
+pub fn verify(
+    model: &dyn Runs,
+    (made_by, run): (&Job, &Recording),
+    progress: &mut dyn FnMut(f64),
+) -> (Setting, Verdict) {
+    let opinion = second_opinion(&Setting::of(made_by));
+    let patience = f64::INFINITY;
+    let second = second(model, made_by, &opinion, patience, progress);
+    let mut comparison = Comparison::of(model, made_by, &[]);
+    let verdict = Verdict::of(&mut comparison, (made_by, run), &second, patience);
+    (opinion.as_run(&second.result), verdict)
+}
+
 /// Runs the job with another setting, for at most `patience` \[s\].
-pub fn second(
+fn second(
     model: &dyn Runs,
     job: &Job,
     opinion: &Setting,
@@ -181,30 +202,15 @@ pub fn second(
 }
 
 impl Verdict {
-    /// True unless the two runs are known to differ by more than promised.
-    fn is_close(&self) -> bool {
-        !matches!(self, Verdict::Apart(d) if d.worst > PROMISED || d.worst_response > PROMISED)
-    }
-
-    /// The verdict of a second run, which had the time limit `patience` \[s\]. Not counted are outputs that never
-    /// exceed their floors, and responses of signals that decrease with the tolerance. `asked` and `first` are the
-    /// responses and their answers in the first run.
-    pub fn of(
-        run: &Recording,
+    /// The verdict of a second run, which had the time limit `patience` \[s\]; `run` is the first one with its job.
+    fn of(
+        comparison: &mut Comparison<'_>,
+        run: (&Job, &Recording),
         second: &Recording,
-        floors: &[f64],
-        (asked, first): (&[Asked], &[Answer]),
         patience: f64,
     ) -> Self {
         match &second.result {
-            Ok(_) => Verdict::Apart(
-                Difference::beyond(&run.table, &second.table, floors).with_responses(
-                    asked,
-                    [run, second],
-                    first,
-                    floors,
-                ),
-            ),
+            Ok(_) => Verdict::Apart(comparison.difference([run.1, second], PROMISED, run)),
             Err(error) if error.kind == ErrorKind::Time => Verdict::TooLong(patience),
             Err(error) => Verdict::Failed(error.message.clone()),
         }
@@ -212,12 +218,8 @@ impl Verdict {
 }
 
 /// The setting with the other formula, and a tenth of the tolerance.
-fn sharper(setting: &Setting) -> Setting {
-    let tolerance = match setting.pace {
-        Pace::Tolerance(tolerance) => rounded(0.1 * tolerance).max(FINEST),
-        // the accuracy of a fixed step is not known
-        Pace::Step(_) => 1e-8,
-    };
+fn opinion(setting: &Setting) -> Setting {
+    let tolerance = sharper(setting);
     let high = tolerance < HIGH;
     Setting {
         formula: match setting.formula {
@@ -230,7 +232,6 @@ fn sharper(setting: &Setting) -> Setting {
         pace: Pace::Tolerance(tolerance),
         scalar: Scalar::F64,
         locate: setting.locate || tolerance < LOCATED,
-        curves: Curves::Written,
     }
 }
 
@@ -252,9 +253,8 @@ mod tests {
                     pace,
                     scalar: Scalar::F64,
                     locate: false,
-                    curves: Curves::Written,
                 };
-                let check = sharper(&setting);
+                let check = opinion(&setting);
                 assert_ne!(check.formula, formula);
                 if let Pace::Tolerance(tolerance) = pace {
                     assert!(check.pace.value() < 0.11 * tolerance);

@@ -2,8 +2,7 @@
 
 use super::front::{self, Cost, Digits};
 use super::point::{Point, Status};
-use super::report::text::schemes;
-use super::setting::{Curves, Pace, time, two_digits};
+use super::setting::{Pace, Scheme, time, two_digits};
 use super::study::Study;
 
 /// The conclusion of a study about one kind of error.
@@ -87,6 +86,12 @@ fn rests_on(study: &Study) -> String {
     text
 }
 
+/// The schemes of a study, in their usual order.
+pub fn schemes(study: &Study) -> Vec<Scheme> {
+    let there = |scheme: &Scheme| study.points.iter().any(|p| p.setting.scheme() == *scheme);
+    Scheme::all().into_iter().filter(there).collect()
+}
+
 /// The methods with the largest shares of skipped settings, at most three: "rodas5 (31 of 33)".
 fn most_skipped(study: &Study) -> Vec<String> {
     let counts = schemes(study).into_iter().map(|scheme| {
@@ -146,14 +151,13 @@ const NONE: Cost = Cost {
     time: f64::INFINITY,
 };
 
-/// Error and time of a point; infinite without a result, with an error of 100 % or more, and with exchanged curves,
-/// because these belong to another scene.
+/// Error and time of a point; infinite without a result, and with an error of 100 % or more.
 pub fn cost(study: &Study, point: &Point) -> Cost {
     let Some(done) = point.done() else {
         return NONE;
     };
-    let error = done.error(study.of, study.own(Curves::Written)).error;
-    match point.setting.curves == Curves::Written && error < 1.0 {
+    let error = done.error(study.of, &study.reference.own).error;
+    match error < 1.0 {
         true => Cost {
             error,
             time: done.timing.median,
@@ -178,7 +182,7 @@ fn confirmed(study: &Study, costs: &[Cost], wanted: f64) -> Vec<Cost> {
 }
 
 fn at_most(study: &Study, point: &Point) -> bool {
-    let own = study.own(point.setting.curves);
+    let own = &study.reference.own;
     point
         .done()
         .is_some_and(|done| done.error(study.of, own).at_most)

@@ -6,7 +6,7 @@
 //! Along x the power of each effect (force times velocity) is curved: P(y + εx) − 2 P(y) + P(y − εx) is 2 ε² times the
 //! change of the force with the velocity. The effect with the largest such curvature causes the motion.
 
-use super::setting::{Curves, Pace, Setting, time, two_digits};
+use super::setting::{Pace, Setting, time, two_digits};
 use crate::equations::Engine;
 use bryant_runtime::program::{Job, Scalar};
 use bryant_runtime::{Adjustable, Formula};
@@ -47,7 +47,6 @@ pub fn fastest(engine: &Engine, job: &Job, parameters: &[f64], patience: f64) ->
         pace: Pace::Tolerance(1e-5),
         scalar: Scalar::F64,
         locate: false,
-        curves: Curves::Written,
     };
     let job = Job {
         every: Some(duration / STATES),

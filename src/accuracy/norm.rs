@@ -14,8 +14,6 @@
 //! not compared: it jumps, and a jump that comes one rounding error earlier is not an error of the size of the jump.
 //! The effects of memory show in the other entries.
 
-use super::trajectory::Trajectory;
-
 /// Least scale of an entry, as a share of the largest scale of its kind.
 const LEAST: f64 = 1e-2;
 
@@ -68,7 +66,7 @@ pub struct StateError {
 
 impl Norm {
     /// The norm for runs that are compared with a reference.
-    pub fn of(names: Names<'_>, reference: &Trajectory) -> Norm {
+    pub fn of(names: Names<'_>, reference: &[Vec<f64>]) -> Norm {
         let component = |name: &str| name.rsplit('.').next().unwrap_or_default().to_owned();
         let mut entries = Vec::new();
         let mut add = |name: &str, kind, index| {
@@ -117,15 +115,15 @@ impl Norm {
     }
 
     /// The error of a run over the samples of the reference; infinite if the run has fewer samples.
-    pub fn error(&self, reference: &Trajectory, run: &Trajectory) -> StateError {
+    pub fn error(&self, reference: &[Vec<f64>], run: &[Vec<f64>]) -> StateError {
         let mut worst = StateError {
             error: 0.0,
             entry: String::new(),
         };
-        if run.states.len() < reference.states.len() {
+        if run.len() < reference.len() {
             worst.error = f64::INFINITY;
         }
-        for (expected, found) in reference.states.iter().zip(&run.states) {
+        for (expected, found) in reference.iter().zip(run) {
             for entry in &self.entries {
                 let error = entry.difference(expected, found) / entry.scale;
                 let error = if error.is_nan() { f64::INFINITY } else { error };
@@ -154,8 +152,13 @@ impl Entry {
 }
 
 /// The extent of the motion of an entry during a run.
-fn extent(kind: Kind, index: usize, run: &Trajectory) -> f64 {
-    let fold = |pick: fn(f64, f64) -> f64, start| run.entry(index).fold(start, pick);
+fn extent(kind: Kind, index: usize, states: &[Vec<f64>]) -> f64 {
+    let entry = || {
+        states
+            .iter()
+            .map(|y| y.get(index).copied().unwrap_or(f64::NAN))
+    };
+    let fold = |pick: fn(f64, f64) -> f64, start| entry().fold(start, pick);
     match kind {
         Kind::Position | Kind::Angle => {
             let (low, high) = (
@@ -164,15 +167,15 @@ fn extent(kind: Kind, index: usize, run: &Trajectory) -> f64 {
             );
             (high - low).max(0.0)
         }
-        Kind::Orientation => match run.states.first() {
+        Kind::Orientation => match states.first() {
             Some(start) => {
-                let angles = run.states.iter().map(|y| angle_between(start, y, index));
+                let angles = states.iter().map(|y| angle_between(start, y, index));
                 angles.fold(0.0, f64::max)
             }
             None => 0.0,
         },
         Kind::Velocity | Kind::AngularVelocity | Kind::Auxiliary(_) => {
-            run.entry(index).fold(0.0, |m, v| m.max(v.abs()))
+            entry().fold(0.0, |m, v| m.max(v.abs()))
         }
     }
 }
@@ -203,19 +206,15 @@ mod tests {
         names.iter().map(|n| n.to_string()).collect()
     }
 
-    fn run(states: &[&[f64]]) -> Trajectory {
-        Trajectory {
-            times: (0..states.len()).map(|i| i as f64).collect(),
-            states: states.iter().map(|s| s.to_vec()).collect(),
-            outputs: Vec::new(),
-        }
+    fn run(states: &[&[f64]]) -> Vec<Vec<f64>> {
+        states.iter().map(|s| s.to_vec()).collect()
     }
 
     fn norm(
         coordinates: &[&str],
         velocities: &[&str],
         auxiliaries: &[&str],
-        r: &Trajectory,
+        r: &[Vec<f64>],
     ) -> Norm {
         let [coordinates, velocities, auxiliaries] =
             [coordinates, velocities, auxiliaries].map(strings);

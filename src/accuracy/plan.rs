@@ -6,12 +6,11 @@
 //! | every formula with an error estimate | half decades of tolerances | as above, in `f32` not below its rounding | as above |
 //! | the default method of runs, which changes to the Rosenbrock method where the scene is stiff | half decades of tolerances | `f64` | as above |
 //! | some, with fast sine and cosine | decades | `fast` | located |
-//! | the same, with curves exchanged | decades | `f64` | located |
 //!
-//! Settings that cannot differ are not run twice: kinks are passed only if the scene has kinks, sines are fast only if
-//! there are sines, and curves are exchanged only if there are curves.
+//! Settings that cannot differ are not run twice: kinks are passed only if the scene has kinks, and sines are fast only
+//! if there are sines.
 
-use super::setting::{Curves, Pace, Scheme, Setting};
+use super::setting::{Pace, Scheme, Setting};
 use bryant_runtime::Formula;
 use bryant_runtime::program::Scalar;
 
@@ -42,8 +41,6 @@ pub struct Scene {
     pub kinks: bool,
     /// The equations have sines and cosines.
     pub sines: bool,
-    /// The laws have curves that can be exchanged.
-    pub curves: bool,
 }
 
 /// Settings that differ only in their pace, from coarse to fine.
@@ -94,11 +91,6 @@ impl Range {
     /// The larger end.
     pub fn largest(&self) -> f64 {
         self.from
-    }
-
-    /// The range as [`Range::read`] reads it; `number` writes its ends.
-    pub fn text(&self, number: impl Fn(f64) -> String) -> String {
-        format!("{}..{}", number(self.from), number(self.to))
     }
 
     /// The ends of the range and the powers of ten between them; with `halves`, also three times these powers.
@@ -174,33 +166,28 @@ pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
                 pace: Pace::Tolerance(1.0),
                 scalar,
                 locate,
-                curves: Curves::Written,
             };
             let halves = !request.quick && locate && scalar == Scalar::F64;
             all.extend(both(request, of, halves));
         }
     }
-    for formula in compared(&request.schemes) {
-        let of = |scalar, curves| Setting {
+    let with_fast_sines = compared(&request.schemes)
+        .into_iter()
+        .filter(|_| scene.sines);
+    for formula in with_fast_sines {
+        let of = Setting {
             formula,
             switches: false,
             pace: Pace::Tolerance(1.0),
-            scalar,
+            scalar: Scalar::Fast,
             locate: true,
-            curves,
         };
-        if scene.sines {
-            all.extend(both(request, of(Scalar::Fast, Curves::Written), false));
-        }
-        if scene.curves {
-            all.extend(both(request, of(Scalar::F64, Curves::Exchanged), false));
-        }
+        all.extend(both(request, of, false));
     }
     all
 }
 
-/// The formulas for which arithmetic and curves are compared: a usual one of each kind; if the request has none of
-/// these, its formulas.
+/// The formulas that are run with fast sines: a usual one of each kind; if the request has none of these, its formulas.
 fn compared(schemes: &[Scheme]) -> Vec<Formula> {
     let alone = schemes.iter().filter(|scheme| !scheme.switches);
     let formulas: Vec<Formula> = alone.map(|scheme| scheme.formula).collect();
@@ -263,7 +250,6 @@ mod tests {
     const ALL: Scene = Scene {
         kinks: true,
         sines: true,
-        curves: true,
     };
 
     #[test]
@@ -326,13 +312,12 @@ mod tests {
         let none = Scene {
             kinks: false,
             sines: false,
-            curves: false,
         };
         let series = series(&request(false), none);
         assert!(
-            series.iter().all(|s| s.of.locate
-                && s.of.scalar != Scalar::Fast
-                && s.of.curves == Curves::Written)
+            series
+                .iter()
+                .all(|s| s.of.locate && s.of.scalar != Scalar::Fast)
         );
         let quick = super::series(&request(true), ALL);
         let count = |all: &[Series]| all.iter().map(|s| s.paces.len()).sum::<usize>();

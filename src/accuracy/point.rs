@@ -1,7 +1,7 @@
 //! A point of the study: one setting and its result.
 
 use super::norm::StateError;
-use super::reading::{Reading, ReadingError};
+use super::reading::Reading;
 use super::setting::{Pace, Setting};
 use bryant_runtime::Report;
 
@@ -31,16 +31,13 @@ pub struct Done {
     /// The error of the state, with its entry.
     pub state: StateError,
     /// Errors of the readings of the study, in its order.
-    pub readings: Vec<ReadingError>,
+    pub readings: Vec<f64>,
     /// The gap in the balance of energy, relative to the energy exchanged.
     pub energy: Option<f64>,
     /// The change of momentum that no force explains, relative to the total momentum; `None` if it is not known.
     pub momentum: Option<f64>,
     /// The cost of the run.
     pub report: Report,
-    /// Number of evaluations times the operations of one; a Jacobian counts as three evaluations for each entry of the
-    /// state.
-    pub operations: u64,
     /// The order, estimated from this point and the coarser point before it.
     pub order: Option<f64>,
     /// Time of the run.
@@ -79,7 +76,7 @@ pub struct Known {
 }
 
 /// The errors of the reference itself.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Own {
     /// Error of the state.
     pub state: f64,
@@ -130,7 +127,7 @@ impl Done {
             at_most: error <= own,
         };
         let reading = |index: usize| {
-            let error = self.readings.get(index).map_or(f64::INFINITY, |r| r.value);
+            let error = self.readings.get(index).copied().unwrap_or(f64::INFINITY);
             known(error, own.readings.get(index).copied().unwrap_or(0.0))
         };
         match of {
@@ -204,7 +201,6 @@ pub fn orders(points: &[&Point], own: &Own) -> Vec<Option<f64>> {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use super::super::setting::Curves;
     use super::*;
     use bryant_runtime::Formula;
     use bryant_runtime::program::Scalar;
@@ -219,17 +215,13 @@ pub(crate) mod tests {
                 pace,
                 scalar: Scalar::F64,
                 locate: true,
-                curves: Curves::Written,
             },
             status: Status::Done(Box::new(Done {
                 state: StateError {
                     error,
                     entry: "a.x".into(),
                 },
-                readings: vec![ReadingError {
-                    value: 2.0 * error,
-                    time: Some(1e-3 * error),
-                }],
+                readings: vec![2.0 * error],
                 energy: Some(error * 0.1),
                 momentum: None,
                 report: Report {
@@ -246,7 +238,6 @@ pub(crate) mod tests {
                     smallest_step_at: 0.0,
                     smallest_step_for: Cause::First,
                 },
-                operations: 1000,
                 order: None,
                 timing: Timing {
                     median: time,

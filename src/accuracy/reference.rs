@@ -4,45 +4,38 @@
 //! tolerances until the allowed time is over. The difference of the last two solutions bounds the error of the coarser
 //! one, and is reported as the error of the reference. If double-doubles would take too long, judged by the measured
 //! time of an evaluation, the reference is computed in `f64`; errors below its own are then not known, and the
-//! statement says so. If the motion is known in closed form, the states of runs are compared with the closed form, and
-//! so is the computed solution, which gives the outputs.
+//! statement says so.
 
-use super::closed_form::ClosedForm;
-use super::norm::{Names, Norm};
+use super::norm::{Names, Norm, StateError};
 use super::point::Own;
-use super::reading::{self, Column, Reading};
-use super::run;
-use super::setting::{Curves, Pace, Setting, time, two_digits};
-use super::trajectory::Trajectory;
+use super::reading::{self, Reading};
+use super::run::{self, states};
+use super::setting::{Pace, Setting, time, two_digits};
 use crate::equations::Engine;
 use crate::orientation::WithoutCharts;
+use crate::simulation::Recording;
 use bryant_runtime::program::{ErrorKind, Header, Job, RunError, Scalar};
 use bryant_runtime::{Adjustable, Formula, Real, Report};
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// A reference with its own errors.
 #[derive(Clone, Debug)]
 pub struct Reference {
     /// Names and units of the model.
     pub header: Header,
-    /// The true motion: states by the closed form if there is one, outputs by the computed solution.
-    pub trajectory: Trajectory,
+    /// The states of its samples.
+    pub states: Vec<Vec<f64>>,
     /// Compares states with the reference.
-    pub norm: Norm,
+    norm: Norm,
     /// The readings of the reference.
     pub readings: Vec<Reading>,
     /// The errors of the reference.
     pub own: Own,
     /// A sentence that says how the reference was computed.
     pub statement: String,
-    /// The cost of the computed solution.
+    /// The cost of the solution.
     pub report: Report,
-    /// Tolerances of the solution, and of the solution that it was compared with.
-    pub tolerances: [f64; 2],
-    /// The name of the closed form, and the difference of the computed solution from it in the state; `None` if there
-    /// is no closed form.
-    pub closed: Option<(&'static str, f64)>,
 }
 
 /// Why a reference could not be computed.
@@ -111,12 +104,7 @@ const SAMPLE: f64 = 2.0 * f64::EPSILON;
 ///
 /// # Errors
 /// No reference can be computed; the error says why.
-pub fn compute(
-    engine: &Engine,
-    job: &Job,
-    closed: Option<ClosedForm>,
-    patience: f64,
-) -> Result<Reference, ReferenceError> {
+pub fn compute(engine: &Engine, job: &Job, patience: f64) -> Result<Reference, ReferenceError> {
     let start = Instant::now();
     let solve = |scalar: Scalar, tolerance: f64| -> Result<Solution, ReferenceError> {
         let setting = setting(scalar, tolerance);
@@ -124,15 +112,12 @@ pub fn compute(
             time_limit: run::limit(2.0 * patience),
             ..setting.job(job)
         };
-        let outcome = run::run(engine, &job);
-        match outcome.result {
+        let run = run::run(engine, &job);
+        match run.result.clone() {
             Ok(report) => Ok(Solution {
-                scalar,
                 tolerance,
                 report,
-                header: outcome.header,
-                trajectory: outcome.trajectory,
-                took: outcome.took,
+                run,
             }),
             Err(error) => Err(ReferenceError::Run {
                 setting: setting.name(),
@@ -156,7 +141,7 @@ pub fn compute(
     for &tolerance in tolerances {
         let growth = libm::pow(last.tolerance / tolerance, 1.0 / ORDER);
         let left = patience - start.elapsed().as_secs_f64();
-        if check.is_some() && last.took.as_secs_f64() * growth > left {
+        if check.is_some() && last.run.wall.as_secs_f64() * growth > left {
             break;
         }
         match (solve(scalar, tolerance), &check) {
@@ -167,8 +152,14 @@ pub fn compute(
         }
     }
     let check = check.expect("the first of several tolerances is solved for, or an error");
-    let instead = (scalar == Scalar::F64).then_some(in_double_double);
-    assess(last, &check, closed, instead)
+    let mut reference = assess(last, &check, scalar)?;
+    if scalar == Scalar::F64 {
+        reference.statement += &format!(
+            "; double-doubles would take about {}",
+            time(two_digits(in_double_double))
+        );
+    }
+    Ok(reference)
 }
 
 /// Time of one evaluation of the derivative at the start of a run \[s\].
@@ -188,12 +179,9 @@ fn time_of_evaluation<T: Real>(model: &dyn Adjustable<T>) -> f64 {
 
 /// A run of the reference that reached its end.
 struct Solution {
-    scalar: Scalar,
     tolerance: f64,
     report: Report,
-    header: Header,
-    trajectory: Trajectory,
-    took: Duration,
+    run: Recording,
 }
 
 /// The setting of a solution.
@@ -204,41 +192,34 @@ fn setting(scalar: Scalar, tolerance: f64) -> Setting {
         pace: Pace::Tolerance(tolerance),
         scalar,
         locate: true,
-        curves: Curves::Written,
     }
 }
 
-/// The outputs of a header.
-pub fn columns(header: &Header) -> Vec<Column> {
-    let column = |output: &bryant_runtime::program::OutputHeader| Column {
-        name: output.name.clone(),
-        unit: output.unit.clone(),
-    };
-    header.outputs.iter().map(column).collect()
-}
-
+/// The reference that a solution is, judged by a coarser one.
 fn assess(
     solution: Solution,
     check: &Solution,
-    closed: Option<ClosedForm>,
-    instead: Option<f64>,
+    scalar: Scalar,
 ) -> Result<Reference, ReferenceError> {
     let [fine, coarse] = [solution.tolerance, check.tolerance];
-    let Solution {
-        scalar,
-        report,
-        header,
-        mut trajectory,
-        ..
-    } = solution;
-    let without_charts = WithoutCharts::of(&header);
+    let Solution { report, run, .. } = solution;
+    let without_charts = WithoutCharts::of(&run.header);
     let names = Names {
         coordinates: &without_charts.coordinates,
         velocities: &without_charts.velocities,
-        auxiliaries: &header.auxiliaries,
+        auxiliaries: &run.header.auxiliaries,
     };
-    let norm = Norm::of(names, &trajectory);
-    let difference = norm.error(&trajectory, &check.trajectory);
+    let states = states(&run);
+    let mut reference = Reference {
+        norm: Norm::of(names, &states),
+        states,
+        readings: reading::of(&run.table),
+        own: Own::default(),
+        statement: String::new(),
+        header: run.header,
+        report,
+    };
+    let (difference, readings) = reference.errors(&check.run);
     if difference.error > APART {
         return Err(ReferenceError::Apart {
             tolerances: [coarse, fine],
@@ -246,47 +227,26 @@ fn assess(
             entry: difference.entry,
         });
     }
-    let readings = reading::of(&columns(&header), &trajectory);
-    let differences = readings.iter().map(|reading| {
-        let error = reading.error(&trajectory, &check.trajectory);
-        error.value.max(SAMPLE)
-    });
-    let mut own = Own {
+    reference.own = Own {
         state: difference.error.max(SAMPLE),
-        readings: differences.collect(),
+        readings: readings.iter().map(|error| error.max(SAMPLE)).collect(),
     };
-    let mut statement = format!(
+    reference.statement = format!(
         "dop853 in {} at tolerance {fine:e}, {} steps, kinks located; at tolerance {coarse:e} it differs by {:.1e} in the state",
         scalar.name(),
-        report.steps,
+        reference.report.steps,
         difference.error
     );
-    if let Some(seconds) = instead {
-        statement += &format!(
-            "; double-doubles would take about {}",
-            time(two_digits(seconds))
-        );
+    Ok(reference)
+}
+
+impl Reference {
+    /// The errors of a run: that of its state, and those of the readings.
+    pub fn errors(&self, run: &Recording) -> (StateError, Vec<f64>) {
+        let readings = self.readings.iter();
+        (
+            self.norm.error(&self.states, &states(run)),
+            readings.map(|reading| reading.error(&run.table)).collect(),
+        )
     }
-    let closed = closed.map(|form| {
-        let exact = form.trajectory(&trajectory.times);
-        let error = norm.error(&exact, &trajectory).error;
-        statement = format!(
-            "states in closed form ({}); outputs of {statement}, and by {error:.1e} from the closed form",
-            form.name()
-        );
-        own.state = form.rounding(report.t).max(SAMPLE);
-        trajectory.states = exact.states;
-        (form.name(), error)
-    });
-    Ok(Reference {
-        header,
-        trajectory,
-        norm,
-        readings,
-        own,
-        statement,
-        report,
-        tolerances: [fine, coarse],
-        closed,
-    })
 }

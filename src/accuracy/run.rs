@@ -1,57 +1,22 @@
 //! Runs one setting of a study and keeps all samples.
 
-use super::trajectory::Trajectory;
 use crate::equations::Engine;
-use crate::interrupt;
 use crate::orientation::WithoutCharts;
-use bryant_runtime::Report;
-use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
-use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use crate::simulation::{Recording, run_with_poses};
+use bryant_runtime::program::Job;
+use std::time::Duration;
 
-/// The outcome of a run.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// Names and units.
-    pub header: Header,
-    /// Its samples; empty for a run without samples.
-    pub trajectory: Trajectory,
-    /// The cost of the run, or its failure.
-    pub result: Result<Report, RunError>,
-    /// The balance of energy.
-    pub energy: Option<Energy>,
-    /// The reasons why the run cannot be trusted.
-    pub doubts: Vec<Finding>,
-    /// Time of the computation.
-    pub took: Duration,
+/// Runs a job until its end, or until an [interrupt](crate::interrupt).
+pub fn run(engine: &Engine, job: &Job) -> Recording {
+    run_with_poses(engine, job, usize::MAX, &mut |_| {})
 }
 
-/// Runs a job until its end, or until an [interrupt].
-pub fn run(engine: &Engine, job: &Job) -> Outcome {
-    let header = Header::of(engine.info());
-    let mut trajectory = Trajectory::default();
-    // without charts, because angles in different charts cannot be compared
-    let without_charts = WithoutCharts::of(&header);
-    let start = Instant::now();
-    let ended = engine.run(
-        job,
-        &mut |t, state, outputs| {
-            trajectory.times.push(t);
-            trajectory.states.push(without_charts.state(state));
-            trajectory.outputs.push(outputs.to_vec());
-            ControlFlow::Continue(())
-        },
-        &mut |_| interrupt::unless_asked(),
-    );
-    let took = start.elapsed();
-    Outcome {
-        result: ended.result,
-        header,
-        trajectory,
-        energy: ended.energy,
-        doubts: ended.doubts,
-        took,
-    }
+/// The states of all samples of a run. Orientations in space are quaternions, because angles in different charts cannot
+/// be compared.
+pub fn states(recording: &Recording) -> Vec<Vec<f64>> {
+    let without_charts = WithoutCharts::of(&recording.header);
+    let state = |instant: &crate::picture::Instant| without_charts.state(&instant.state);
+    recording.instants.iter().map(state).collect()
 }
 
 /// Converts a time limit from seconds; `None` if it is too long for a `Duration`.

@@ -248,7 +248,6 @@ pub fn distance(all: &[Cost], index: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::setting::Curves;
     use bryant_runtime::Formula;
     use bryant_runtime::program::Scalar;
 
@@ -260,7 +259,6 @@ mod tests {
                 pace: Pace::Step(1.0),
                 scalar: Scalar::F64,
                 locate: true,
-                curves: Curves::Written,
             },
             paces: (0..8).map(|i| Pace::Step(0.1f64.powi(i))).collect(),
         }

@@ -1,6 +1,6 @@
-//! A setting is one way to compute a motion: formula, pace, scalar, kinks, curves.
+//! A setting is one way to compute a motion: formula, pace, scalar, kinks.
 
-use bryant_runtime::program::{Job, Scalar};
+use bryant_runtime::program::{Job, RunError, Scalar};
 use bryant_runtime::{Adaptive, Formula, Method, Report, Tolerances};
 
 /// The setting of a run.
@@ -16,8 +16,6 @@ pub struct Setting {
     pub scalar: Scalar,
     /// True if steps end at kinks of force laws.
     pub locate: bool,
-    /// The curves of the model.
-    pub curves: Curves,
 }
 
 /// The length of steps.
@@ -27,15 +25,6 @@ pub enum Pace {
     Step(f64),
     /// Steps are chosen by error control with this relative tolerance.
     Tolerance(f64),
-}
-
-/// The curves of the model.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Curves {
-    /// Those that the model was written with.
-    Written,
-    /// Cubics in place of straight lines, and straight lines in place of cubics.
-    Exchanged,
 }
 
 /// A formula, with or without changes to the Rosenbrock method where the scene is stiff.
@@ -92,15 +81,16 @@ impl Setting {
         }
     }
 
-    /// The setting that the run actually used: without switching if the scene was not stiff.
-    pub fn as_run(self, report: &Report) -> Setting {
+    /// The setting that a run with this result used: without switching if the scene was not stiff.
+    pub fn as_run(self, result: &Result<Report, RunError>) -> Setting {
+        let stiff = result.as_ref().is_ok_and(|report| report.stiff > 0);
         Setting {
-            switches: self.switches && report.stiff > 0,
+            switches: self.switches && (stiff || result.is_err()),
             ..self
         }
     }
 
-    /// The setting of a job; kinks are passed unless the job says otherwise, and the curves are those written.
+    /// The setting of a job; kinks are passed unless the job says otherwise.
     pub fn of(job: &Job) -> Self {
         let method = job.method();
         Setting {
@@ -114,7 +104,6 @@ impl Setting {
             },
             scalar: job.scalar,
             locate: job.locate.unwrap_or(false),
-            curves: Curves::Written,
         }
     }
 
@@ -170,9 +159,6 @@ impl Setting {
         if !self.locate {
             name += ", kinks passed";
         }
-        if self.curves == Curves::Exchanged {
-            name += ", curves exchanged";
-        }
         name
     }
 }
@@ -190,16 +176,6 @@ impl Pace {
     pub fn value(&self) -> f64 {
         match self {
             Pace::Step(value) | Pace::Tolerance(value) => *value,
-        }
-    }
-}
-
-impl Curves {
-    /// "written" or "exchanged".
-    pub fn name(self) -> &'static str {
-        match self {
-            Curves::Written => "written",
-            Curves::Exchanged => "exchanged",
         }
     }
 }

@@ -8,22 +8,20 @@
 //! measured one run after another, in rounds over the points, those nearest to the front first, so that a disturbance
 //! of the machine slows all of them down.
 
-use super::closed_form::ClosedForm;
 use super::conclusion::bounded_by_stability;
-use super::environment::Environment;
 use super::fastest::{Fastest, fastest};
 use super::front::Cost;
-use super::operations::Operations;
 use super::plan::{self, Request, Scene, Series};
-use super::point::{Done, Measure, Own, Point, Status, Timing, orders};
+use super::point::{Done, Measure, Point, Status, Timing, orders};
 use super::reading::Reading;
 use super::reference::{self, Reference, ReferenceError};
 use super::run;
 use super::schedule::{self, Schedule, distance};
-use super::setting::{Curves, Setting, time, two_digits};
+use super::setting::{Setting, time, two_digits};
 use crate::equations::Engine;
 use crate::interrupt;
 use bryant_generator::model::Model;
+use bryant_generator::{dynamics, program};
 use bryant_runtime::program::{ErrorKind, Job};
 use std::time::Instant;
 
@@ -33,8 +31,6 @@ pub struct Subject<'a> {
     pub model: &'a Model,
     /// Its equations, over every scalar.
     pub engine: &'a Engine,
-    /// The equations of the model with its curves exchanged; `None` if no curve can be exchanged.
-    pub exchanged: Option<&'a Engine>,
     /// The settings that are the same in all runs: duration, sampling, parameters.
     pub job: Job,
     /// The values of all parameters, in the model's order.
@@ -59,22 +55,16 @@ pub struct Study {
     pub model: String,
     /// Its digest.
     pub digest: String,
-    /// The program and the machine that made it.
-    pub environment: Environment,
+    /// The evaluation of equations: "machine code (AVX2)".
+    pub engine: String,
     /// Length of the runs \[s\].
     pub duration: f64,
     /// Time between samples \[s\].
     pub every: f64,
-    /// Parameters, their values (SI) and units.
-    pub parameters: Vec<(String, f64, String)>,
+    /// Parameters and their values (SI).
+    pub parameters: Vec<(String, f64)>,
     /// The reference that errors are measured against.
     pub reference: Reference,
-    /// The model with its curves exchanged and its reference.
-    pub exchanged: Option<Exchanged>,
-    /// The reason why the model with its curves exchanged is left out, although it exists.
-    pub not_exchanged: Option<String>,
-    /// Operations of one evaluation of the derivative.
-    pub operations: Operations,
     /// The kind of error in the diagram and the sentence.
     pub of: Measure,
     /// The points, series by series, each from coarse to fine.
@@ -85,17 +75,6 @@ pub struct Study {
     pub interrupted: bool,
     /// Total time of the study \[s\].
     pub took: f64,
-}
-
-/// The model with its curves exchanged.
-#[derive(Clone, Debug)]
-pub struct Exchanged {
-    /// Its own reference.
-    pub reference: Reference,
-    /// The difference of the two models in the state.
-    pub state: f64,
-    /// The difference of the two models in each reading.
-    pub readings: Vec<f64>,
 }
 
 /// The stage of a study.
@@ -140,48 +119,27 @@ const SHORT: f64 = 20e-3;
 /// There is no reference, or the requested kind of error does not exist.
 pub fn study(
     subject: &Subject<'_>,
-    environment: Environment,
     effort: &Effort,
     of: impl FnOnce(&[Reading]) -> Result<Measure, StudyError>,
     progress: &mut dyn FnMut(Stage, f64),
 ) -> Result<Study, StudyError> {
     let start = Instant::now();
     let model = subject.model;
-    let operations = Operations::of(model);
     progress(Stage::Reference, 0.0);
     let clock = Clock {
         start,
         budget: effort.budget,
     };
-    let closed = ClosedForm::of(model, &subject.parameters);
-    let shares = if subject.exchanged.is_some() {
-        2.0
-    } else {
-        1.0
-    };
-    let patience = clock.left(REFERENCE) / shares;
-    let reference = reference::compute(subject.engine, &subject.job, closed, patience)?;
-    progress(Stage::Reference, 0.5);
-    let own = subject
-        .exchanged
-        .map(|engine| reference::compute(engine, &subject.job, None, clock.left(REFERENCE)));
-    let (exchanged, not_exchanged) = match own {
-        Some(Ok(own)) => (Some(Exchanged::of(&reference, own)), None),
-        Some(Err(error)) => (None, Some(error.to_string())),
-        None => (None, None),
-    };
+    let reference = reference::compute(subject.engine, &subject.job, clock.left(REFERENCE))?;
     progress(Stage::Reference, 1.0);
     let scene = Scene {
         kinks: reference.report.events > 0,
-        sines: operations.sines > 0,
-        curves: exchanged.is_some(),
+        sines: has_sines(model),
     };
     let of = of(&reference.readings)?;
     let bench = Bench {
         subject,
         reference: &reference,
-        exchanged: exchanged.as_ref(),
-        operations,
         of,
         clock,
     };
@@ -192,20 +150,17 @@ pub fn study(
     let mut study = Study {
         model: model.name.clone(),
         digest: model.digest.clone(),
-        environment,
+        engine: subject.engine.arithmetic().to_owned(),
         duration: subject.job.duration.unwrap_or(header.duration),
         every: subject.job.every.unwrap_or(header.every),
         parameters: parameters
-            .map(|(p, value)| (p.name.clone(), *value, p.unit.clone()))
+            .map(|(p, value)| (p.name.clone(), *value))
             .collect(),
-        operations,
         of,
         points,
         took: 0.0,
         fastest: None,
         interrupted: interrupt::asked(),
-        exchanged,
-        not_exchanged,
         reference,
     };
     if !bounded_by_stability(&study).is_empty() && !study.interrupted {
@@ -216,64 +171,32 @@ pub fn study(
     Ok(study)
 }
 
-impl Exchanged {
-    fn of(written: &Reference, mut own: Reference) -> Exchanged {
-        // the same readings as for the written model, so that errors are in the same columns
-        let again = |reading: &Reading| reading.again(&own.trajectory);
-        let readings: Vec<Reading> = written.readings.iter().map(again).collect();
-        let errors = own.own.readings.iter().copied().fold(0.0, f64::max);
-        own.own.readings = readings.iter().map(|_| errors).collect();
-        own.readings = readings;
-        let difference = |reading: &Reading| {
-            let error = reading.error(&written.trajectory, &own.trajectory);
-            error.value
-        };
-        Exchanged {
-            state: written
-                .norm
-                .error(&written.trajectory, &own.trajectory)
-                .error,
-            readings: written.readings.iter().map(difference).collect(),
-            reference: own,
-        }
-    }
-}
-
-impl Study {
-    /// The errors of the reference for points with these curves.
-    pub fn own(&self, curves: Curves) -> &Own {
-        match (&self.exchanged, curves) {
-            (Some(exchanged), Curves::Exchanged) => &exchanged.reference.own,
-            _ => &self.reference.own,
-        }
-    }
+/// True if an evaluation of the derivative has sines or cosines.
+fn has_sines(model: &Model) -> bool {
+    let options = dynamics::Options {
+        matrices: false,
+        ..dynamics::Options::default()
+    };
+    let emitted = program::Options {
+        matrices: false,
+        ..program::Options::default()
+    };
+    let equations = dynamics::derive_with(model, options);
+    let costs = program::costs_of(model, &equations, &emitted, Some(&["accelerations"]));
+    costs
+        .iter()
+        .any(|(_, cost)| cost.total.sin + cost.total.cos > 0)
 }
 
 /// Runs settings and measures their errors and times.
 struct Bench<'a> {
     subject: &'a Subject<'a>,
     reference: &'a Reference,
-    exchanged: Option<&'a Exchanged>,
-    operations: Operations,
     of: Measure,
     clock: Clock,
 }
 
 impl Bench<'_> {
-    fn engine(&self, curves: Curves) -> &Engine {
-        match (curves, self.subject.exchanged) {
-            (Curves::Exchanged, Some(engine)) => engine,
-            _ => self.subject.engine,
-        }
-    }
-
-    fn reference(&self, curves: Curves) -> &Reference {
-        match (curves, self.exchanged) {
-            (Curves::Exchanged, Some(exchanged)) => &exchanged.reference,
-            _ => self.reference,
-        }
-    }
-
     /// Runs each setting once, as far as the budget allows. The points are in the order of the series, each from coarse
     /// to fine.
     fn errors(&self, all: &[Series], progress: &mut dyn FnMut(Stage, f64)) -> Vec<Point> {
@@ -281,13 +204,12 @@ impl Bench<'_> {
         let schedule = Schedule::new(all, SHARE * self.clock.budget, end);
         let run = |setting: &Setting, limit: f64| {
             let status = self.run(setting, limit);
-            let cost = self.cost(setting, &status);
+            let cost = self.cost(&status);
             (status, cost)
         };
         let mut points = schedule.carry_out(&run, &mut |part| progress(Stage::Errors, part));
         for series in points.chunk_by_mut(|a, b| a.setting.same_series(&b.setting)) {
-            let own = &self.reference(series[0].setting.curves).own;
-            let orders = orders(&series.iter().collect::<Vec<_>>(), own);
+            let orders = orders(&series.iter().collect::<Vec<_>>(), &self.reference.own);
             for (point, order) in series.iter_mut().zip(orders) {
                 if let Status::Done(done) = &mut point.status {
                     done.order = order;
@@ -298,12 +220,10 @@ impl Bench<'_> {
     }
 
     /// The error and the time of a run; infinite if the run has no result.
-    fn cost(&self, setting: &Setting, status: &Status) -> Cost {
+    fn cost(&self, status: &Status) -> Cost {
         match status {
             Status::Done(done) => Cost {
-                error: done
-                    .error(self.of, &self.reference(setting.curves).own)
-                    .error,
+                error: done.error(self.of, &self.reference.own).error,
                 time: done.timing.median,
             },
             _ => Cost {
@@ -319,9 +239,9 @@ impl Bench<'_> {
             time_limit: run::limit(limit),
             ..setting.job(&self.subject.job)
         };
-        let outcome = run::run(self.engine(setting.curves), &job);
-        let report = match outcome.result {
-            Ok(report) => report,
+        let outcome = run::run(self.subject.engine, &job);
+        let report = match &outcome.result {
+            Ok(report) => *report,
             // the time limit is due to the budget, so the setting counts as skipped instead of failed
             Err(error) if error.kind == ErrorKind::Time => {
                 return Status::Skipped(format!(
@@ -332,28 +252,21 @@ impl Bench<'_> {
             Err(error) if error.kind == ErrorKind::Stopped => {
                 return Status::Skipped(schedule::INTERRUPTED.to_owned());
             }
-            Err(error) => return Status::Failed(error.message),
+            Err(error) => return Status::Failed(error.message.clone()),
         };
-        let reference = self.reference(setting.curves);
-        let state = reference
-            .norm
-            .error(&reference.trajectory, &outcome.trajectory);
-        let error = |reading: &Reading| reading.error(&reference.trajectory, &outcome.trajectory);
-        let header = &reference.header;
-        let entries = header.coordinates.len() + header.velocities.len() + header.auxiliaries.len();
+        let (state, readings) = self.reference.errors(&outcome);
         Status::Done(Box::new(Done {
             state,
-            readings: reference.readings.iter().map(error).collect(),
+            readings,
             momentum: outcome
                 .energy
                 .as_ref()
                 .and_then(|energy| energy.momentum_gap),
             energy: outcome.energy.map(|energy| energy.relative_gap()),
-            operations: self.operations.of_run(&report, entries),
             report,
             order: None,
             // a first value, until the run is timed alone
-            timing: Timing::of(&[outcome.took.as_secs_f64()]),
+            timing: Timing::of(&[outcome.wall.as_secs_f64()]),
         }))
     }
 
@@ -361,7 +274,7 @@ impl Bench<'_> {
     fn time(&self, points: &mut [Point], effort: &Effort, progress: &mut dyn FnMut(Stage, f64)) {
         let costs: Vec<Cost> = points
             .iter()
-            .map(|point| self.cost(&point.setting, &point.status))
+            .map(|point| self.cost(&point.status))
             .collect();
         let mut order: Vec<usize> = (0..points.len())
             .filter(|&i| points[i].done().is_some())
@@ -387,7 +300,7 @@ impl Bench<'_> {
                     time_limit: run::limit(rest),
                     ..point.setting.job(&self.subject.job)
                 };
-                let outcome = run::run(self.engine(point.setting.curves), &job);
+                let outcome = run::run(self.subject.engine, &job);
                 if interrupt::asked() {
                     break 'rounds;
                 }
@@ -395,7 +308,7 @@ impl Bench<'_> {
                 if outcome.result.is_err() {
                     continue;
                 }
-                times[index].push(outcome.took.as_secs_f64());
+                times[index].push(outcome.wall.as_secs_f64());
                 let part = (place + 1) as f64 / order.len() as f64;
                 progress(Stage::Times, (round as f64 + part) / rounds as f64);
             }

@@ -12,14 +12,13 @@
 //! down to about 1e-7, Dormand–Prince 8(5,3) with kinks located below. Where the scene is stiff, both change to the
 //! Rosenbrock method.
 
-use super::conditioning;
-use super::setting::{Curves, Pace, Setting};
+use super::check::{Certainty, Checked};
+use super::comparison::{Comparison, PROMISED, sharper};
+use super::setting::{Pace, Setting};
 use crate::simulation::{self, Recording, Runs};
 use crate::table::{Column, Table};
 use bryant_runtime::Formula;
-use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
-use bryant_runtime::response::Answer;
 use std::collections::HashMap;
 use std::hash::Hash;
 
@@ -33,24 +32,11 @@ const LEAST: f64 = 0.316;
 const HIGH: f64 = 1e-7;
 /// Size below which an output is noise whose error does not matter, as a share of the largest output with the same
 /// unit.
-const NOISE: f64 = 1e-9;
+pub(super) const NOISE: f64 = 1e-9;
 /// A signal whose size has fallen to this share of that in the first run counts as decreasing with the tolerance.
 pub(super) const SHRUNK: f64 = 1e-2;
 /// An output whose difference is smaller is known, even if the output is small.
 const NEGLIGIBLE: f64 = 1e-3;
-
-/// A run that is as accurate as requested, or as accurate as possible.
-#[derive(Clone, Debug)]
-pub struct Accurate {
-    /// The sharpest run.
-    pub recording: Recording,
-    /// The setting of this run.
-    pub setting: Setting,
-    /// Estimated error; `None` if no two runs could be compared, because runs failed.
-    pub estimate: Option<Difference>,
-    /// Number of runs that were needed.
-    pub runs: usize,
-}
 
 /// The difference of two runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -136,59 +122,9 @@ impl Difference {
         }
     }
 
-    /// Adds the differences of the responses `asked` of both runs. Some responses do not count: those of signals that
-    /// are noise, those of signals that have fallen below a hundredth of their size in the `first` run, and those of a
-    /// single output that never exceeds its floor.
-    pub fn with_responses(
-        self,
-        asked: &[Asked],
-        [coarse, sharp]: [&Recording; 2],
-        first: &[Answer],
-        floors: &[f64],
-    ) -> Difference {
-        let unit = |asked: &Asked| {
-            let channel = asked.channel;
-            let keeps = channel.combination.keeps_unit();
-            let first = channel.outputs().first().filter(|_| keeps)?;
-            Some(sharp.header.outputs.get(*first)?.unit.as_str())
-        };
-        // the largest value for each unit, in rows and in samples
-        let columns = sharp.table.columns.iter().skip(1);
-        let rows = columns.map(|column| (Some(column.unit.as_str()), largest(&column.values)));
-        let samples = asked.iter().zip(&sharp.answers);
-        let samples = samples.map(|(asked, answer)| (unit(asked), answer.largest));
-        let scales = largest_by_unit(rows.chain(samples));
-        let scale = |asked: &Asked| scales.get(&unit(asked)).copied().unwrap_or(0.0);
-        let floor = |asked: &Asked| match asked.channel.plain() {
-            Some(output) => floors.get(output).copied().filter(|floor| *floor > 0.0),
-            None => None,
-        };
-        let pairs = sharp.answers.iter().zip(&coarse.answers);
-        let responses: Vec<f64> = pairs.map(|(sharp, coarse)| sharp.apart(coarse)).collect();
-        let counts = |(index, asked): (usize, &Asked)| {
-            let answer = sharp.answers.get(index)?;
-            let both = [answer.value, coarse.answers.get(index)?.value];
-            let size = answer.largest.max(coarse.answers[index].largest);
-            let vanishes = first
-                .get(index)
-                .is_some_and(|first| answer.largest <= SHRUNK * first.largest);
-            let negligible = size <= NOISE * scale(asked)
-                || floor(asked).is_some_and(|floor| answer.largest <= floor);
-            if negligible || vanishes || both.iter().all(|x| x.is_nan()) {
-                return None;
-            }
-            Some(
-                Some(responses[index])
-                    .filter(|x| !x.is_nan())
-                    .unwrap_or(f64::INFINITY),
-            )
-        };
-        let worst_response = asked.iter().enumerate().filter_map(counts);
-        Difference {
-            worst_response: worst_response.fold(0.0, f64::max),
-            responses,
-            ..self
-        }
+    /// True if no output and no response differs by more than `limit`.
+    pub fn is_within(&self, limit: f64) -> bool {
+        self.worst <= limit && self.worst_response <= limit
     }
 
     /// Raises each error to at least the share `share` of the error in `other`.
@@ -220,7 +156,9 @@ fn apart(a: f64, b: f64) -> f64 {
 }
 
 /// The largest size for each unit.
-fn largest_by_unit<U: Eq + Hash>(sizes: impl Iterator<Item = (U, f64)>) -> HashMap<U, f64> {
+pub(super) fn largest_by_unit<U: Eq + Hash>(
+    sizes: impl Iterator<Item = (U, f64)>,
+) -> HashMap<U, f64> {
     let mut scales = HashMap::new();
     for (unit, size) in sizes {
         let scale = scales.entry(unit).or_insert(0.0f64);
@@ -236,7 +174,7 @@ pub fn largest(values: &[f64]) -> f64 {
 
 /// Runs a job until the estimated error of its outputs and responses is at most `wanted`. `progress` is called with the
 /// share of a run that is done. If a run fails, the recording has the reason.
-pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Accurate {
+pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f64)) -> Checked {
     let mut setting = Setting {
         formula: if wanted < HIGH {
             Formula::Dop853
@@ -247,13 +185,14 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         pace: Pace::Tolerance(rounded(wanted).clamp(100.0 * FINEST, COARSEST)),
         scalar: Scalar::F64,
         locate: wanted < HIGH,
-        curves: Curves::Written,
     };
     let mut recording = simulation::run(model, &setting.job(job), progress);
-    let mut estimate: Option<Difference> = None;
-    let mut rounding = None;
-    let first = recording.answers.clone();
-    let (mut runs, mut comparisons) = (1, 0);
+    let mut comparison = Comparison::of(model, job, &recording.answers);
+    let mut comparisons = 0;
+    let mut known = Certainty {
+        wanted: Some(wanted),
+        ..Certainty::none(wanted.max(PROMISED))
+    };
     loop {
         let refused = matches!(
             &recording.result,
@@ -262,16 +201,13 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
                 ..
             })
         );
-        let close = |e: &Difference| e.worst <= wanted && e.worst_response <= wanted;
-        let good = comparisons > 1 && estimate.as_ref().is_some_and(close);
-        let Pace::Tolerance(tolerance) = setting.pace else {
-            break;
-        };
-        if refused || good || tolerance <= FINEST {
+        let close = known.estimate.as_ref().is_some_and(|e| e.is_within(wanted));
+        let good = comparisons > 1 && close;
+        if refused || good || setting.pace.value() <= FINEST {
             break;
         }
         let next = Setting {
-            pace: Pace::Tolerance(rounded(0.1 * tolerance).max(FINEST)),
+            pace: Pace::Tolerance(sharper(&setting)),
             ..setting
         };
         let sharper = simulation::run(model, &next.job(job), progress);
@@ -279,24 +215,13 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
             // the user stopped the sharper run; the run before is complete
             break;
         }
-        runs += 1;
-        estimate = match (&recording.result, &sharper.result) {
+        known.runs += 1;
+        known.estimate = match (&recording.result, &sharper.result) {
             (Ok(_), Ok(_)) => {
-                let mut apart = Difference::of(&recording.table, &sharper.table);
-                if apart.worst > wanted {
-                    let floors = rounding.get_or_insert_with(|| {
-                        conditioning::reach(model, &next.job(job), &sharper, &apart.outputs)
-                    });
-                    apart = Difference::beyond(&recording.table, &sharper.table, floors);
-                }
-                let apart = apart.with_responses(
-                    &job.reading.asked,
-                    [&recording, &sharper],
-                    &first,
-                    rounding.as_deref().unwrap_or_default(),
-                );
+                let made_by = (&next.job(job), &sharper);
+                let apart = comparison.difference([&recording, &sharper], wanted, made_by);
                 comparisons += 1;
-                Some(apart.at_least(estimate.as_ref(), LEAST))
+                Some(apart.at_least(known.estimate.as_ref(), LEAST))
             }
             _ => {
                 comparisons = 0;
@@ -305,11 +230,10 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         };
         (recording, setting) = (sharper, next);
     }
-    Accurate {
+    known.setting = Some(setting);
+    Checked {
         recording,
-        setting,
-        estimate,
-        runs,
+        certainty: known,
     }
 }
 
@@ -334,7 +258,6 @@ pub fn second_opinion(setting: &Setting) -> Setting {
         pace: Pace::Tolerance(rounded(1e-2 * tolerance).clamp(FINEST, 1e-6)),
         scalar: Scalar::F64,
         locate: true,
-        curves: setting.curves,
     }
 }
 
@@ -409,7 +332,6 @@ mod tests {
                 pace: Pace::Tolerance(1e-4),
                 scalar: Scalar::F64,
                 locate: false,
-                curves: Curves::Written,
             };
             let opinion = second_opinion(&setting);
             assert!(opinion.formula != formula && opinion.locate);

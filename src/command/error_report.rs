@@ -2,10 +2,11 @@
 
 use super::Error;
 use crate::accuracy::cause::Cause;
-use crate::accuracy::check::{Checked, FAR, PROMISED, Verdict};
+use crate::accuracy::check::{Certainty, FAR, Verdict};
+use crate::accuracy::comparison::PROMISED;
 use crate::accuracy::conclusion::percent;
 use crate::accuracy::setting::{Setting, time};
-use crate::accuracy::target::{Accurate, Difference};
+use crate::accuracy::target::Difference;
 use bryant_runtime::program::{ErrorKind, Header, RunError};
 use serde_json::{Value, json};
 
@@ -14,92 +15,34 @@ const NAMED: usize = 8;
 /// A smaller difference is a rounding error, because runs in double precision cannot resolve more.
 const ROUNDING: f64 = 1e-12;
 
-/// What is known about the error of a run.
+/// What is known about the error of a run, and the outputs that it is about.
 pub struct ErrorReport {
     outputs: Vec<String>,
-    /// The setting of the run, if the program chose it.
-    setting: Option<Setting>,
-    /// The error that the user allows.
-    wanted: Option<f64>,
-    /// Number of runs that were made to choose the setting.
-    runs: usize,
-    estimate: Option<Difference>,
-    /// The difference of the first of several runs from its check.
-    first: Option<Difference>,
-    /// The setting of the second run, and its verdict.
-    check: Option<(Setting, Verdict)>,
-    /// The run cannot be trusted if it differs from the second run by more than this share.
-    limit: f64,
-    /// True if there was not enough time for sharper runs.
-    out_of_time: bool,
-    /// The reason why sharper runs did not agree.
-    cause: Option<Cause>,
+    known: Certainty,
 }
 
 impl ErrorReport {
-    /// A report about a run of unknown error; `chosen` is true if the user chose the method of the run.
-    pub fn new(header: &Header, chosen: bool) -> Self {
+    /// A report about a run with these outputs.
+    pub fn new(header: &Header, known: Certainty) -> Self {
         ErrorReport {
             outputs: header.outputs.iter().map(|o| o.name.clone()).collect(),
-            setting: None,
-            wanted: None,
-            runs: 1,
-            estimate: None,
-            first: None,
-            check: None,
-            limit: if chosen { FAR } else { PROMISED },
-            out_of_time: false,
-            cause: None,
-        }
-    }
-
-    /// A report about a run with a requested error of `wanted`.
-    pub fn of_accurate(accurate: &Accurate, wanted: f64) -> Self {
-        ErrorReport {
-            setting: Some(accurate.setting),
-            wanted: Some(wanted),
-            runs: accurate.runs,
-            estimate: accurate.estimate.clone(),
-            limit: wanted.max(PROMISED),
-            ..ErrorReport::new(&accurate.recording.header, false)
-        }
-    }
-
-    /// A report about a run with the default check.
-    pub fn of_checked(checked: &Checked) -> Self {
-        ErrorReport {
-            setting: checked.first.is_some().then_some(checked.setting),
-            runs: checked.runs,
-            first: checked.first.clone(),
-            check: checked.check.clone(),
-            limit: checked.limit,
-            out_of_time: checked.out_of_time,
-            cause: checked.cause.clone(),
-            ..ErrorReport::new(&checked.recording.header, false)
+            known,
         }
     }
 
     /// The setting, if the program chose it.
     pub fn setting(&self) -> Option<Setting> {
-        self.setting
-    }
-
-    /// The report with the verdict of a second run.
-    pub fn verified(self, opinion: Setting, verdict: Verdict) -> Self {
-        ErrorReport {
-            check: Some((opinion, verdict)),
-            ..self
-        }
+        self.known.setting
     }
 
     /// The relative difference of each requested response from the run that this run was compared with; `None` if it
     /// was not compared.
     pub fn responses(&self) -> Option<&[f64]> {
-        let checked = match &self.check {
+        let checked = match &self.known.check {
             Some((_, Verdict::Apart(difference))) => Some(difference),
             _ => None,
         };
-        let difference = checked.or(self.estimate.as_ref())?;
+        let difference = checked.or(self.known.estimate.as_ref())?;
         (!difference.responses.is_empty()).then_some(&difference.responses[..])
     }
 
@@ -111,7 +54,7 @@ impl ErrorReport {
                 at_most(difference.worst)
             )
         };
-        match (&self.check, &self.estimate) {
+        match (&self.known.check, &self.known.estimate) {
             (Some((opinion, Verdict::Apart(difference))), _) => {
                 let who = format!("a second run by {} shows", opinion.scheme().name());
                 within(difference, who)
@@ -123,7 +66,7 @@ impl ErrorReport {
                 "not checked: a second run takes longer than {} (--verify waits for it)",
                 time(*limit)
             ),
-            (None, Some(estimate)) => within(estimate, format!("{} runs show", self.runs)),
+            (None, Some(estimate)) => within(estimate, format!("{} runs show", self.known.runs)),
             (None, None) => "not checked".to_owned(),
         }
     }
@@ -131,21 +74,21 @@ impl ErrorReport {
     /// The report for people, line by line.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        if self.wanted.is_some()
-            && let Some(setting) = &self.setting
+        if self.known.wanted.is_some()
+            && let Some(setting) = &self.known.setting
         {
-            let error = match &self.estimate {
+            let error = match &self.known.estimate {
                 Some(estimate) => format!("estimated error at most {}", worst(estimate)),
                 None => "its error is not known".to_owned(),
             };
             lines.push(format!(
                 "{error}, by {} ({} runs)",
                 setting.name(),
-                self.runs
+                self.known.runs
             ));
-            lines.extend(self.estimate.iter().flat_map(vanishing));
+            lines.extend(self.known.estimate.iter().flat_map(vanishing));
         }
-        if let (Some(first), Some(setting)) = (&self.first, &self.setting) {
+        if let (Some(first), Some(setting)) = (&self.known.first, &self.known.setting) {
             // the difference that was the reason for sharper runs
             let away = match first.worst <= PROMISED && first.worst_response > PROMISED {
                 true => format!("{} of a response", percent(first.worst_response)),
@@ -154,11 +97,11 @@ impl ErrorReport {
             lines.push(format!(
                 "sharpened to {} ({} runs): the first run differed by {away}",
                 setting.name(),
-                self.runs,
+                self.known.runs,
             ));
         }
         lines.extend(self.by_response());
-        match &self.check {
+        match &self.known.check {
             Some((opinion, Verdict::Apart(difference))) => {
                 lines.push(format!(
                     "checked by {}: differs by {}",
@@ -185,12 +128,12 @@ impl ErrorReport {
 
     /// A line that says that responses are less accurate than they should be; `None` if they are accurate.
     fn by_response(&self) -> Option<String> {
-        let estimated = self.estimate.as_ref().map(|e| e.worst_response);
-        let checked = match &self.check {
+        let estimated = self.known.estimate.as_ref().map(|e| e.worst_response);
+        let checked = match &self.known.check {
             Some((_, Verdict::Apart(difference))) => Some(difference.worst_response),
             _ => None,
         };
-        let limit = self.wanted.unwrap_or(self.limit);
+        let limit = self.known.wanted.unwrap_or(self.known.limit);
         let worst = checked.into_iter().chain(estimated).fold(0.0, f64::max);
         (worst > limit).then(|| {
             format!(
@@ -237,8 +180,12 @@ impl ErrorReport {
                 message,
             }))
         };
-        if let (Some(wanted), Some(setting)) = (self.wanted, &self.setting)
-            && !self.estimate.as_ref().is_some_and(|e| e.worst <= wanted)
+        if let (Some(wanted), Some(setting)) = (self.known.wanted, &self.known.setting)
+            && !self
+                .known
+                .estimate
+                .as_ref()
+                .is_some_and(|e| e.worst <= wanted)
         {
             return error(format!(
                 "an accuracy of {} is not reached, not even by {}\n  help: ask for less, or look at `bryant accuracy`: \
@@ -247,11 +194,11 @@ impl ErrorReport {
                 setting.name()
             ));
         }
-        match &self.check {
+        match &self.known.check {
             Some((opinion, Verdict::Apart(difference)))
-                if difference.worst > self.limit || difference.worst.is_nan() =>
+                if difference.worst > self.known.limit || difference.worst.is_nan() =>
             {
-                let help = match (self.limit == FAR, self.out_of_time) {
+                let help = match (self.known.limit == FAR, self.known.out_of_time) {
                     (true, _) => {
                         "give a smaller --step or --tolerance, or leave the choice of the method to the program".into()
                     }
@@ -262,7 +209,7 @@ impl ErrorReport {
                 };
                 error(format!(
                     "the outputs are not as accurate as {}: a run by {} differs by {}\n  help: {help}",
-                    percent(self.limit),
+                    percent(self.known.limit),
                     opinion.name(),
                     worst(difference)
                 ))
@@ -278,7 +225,7 @@ impl ErrorReport {
 
     /// What the user can do if sharper runs do not agree, by the cause that was measured.
     fn explained(&self) -> String {
-        match &self.cause {
+        match &self.known.cause {
             Some(Cause::Rounding { coordinate, size }) => format!(
                 "rounding explains this: \"{coordinate}\" is {} from the origin, where a double tells {:.0e} m apart, and that adds up from step to \
                  step; describe the motion from a moving origin: leave the velocity and the distance away that all bodies have in common",
@@ -314,21 +261,25 @@ impl ErrorReport {
                 "vanishing": vanishing.collect::<serde_json::Map<_, _>>(),
             })
         };
-        let verified = self.check.as_ref().map(|(opinion, verdict)| match verdict {
-            Verdict::Apart(difference) => {
-                json!({ "by": opinion.name(), "difference": errors(difference) })
-            }
-            Verdict::Failed(message) => json!({ "by": opinion.name(), "failure": message }),
-            Verdict::TooLong(limit) => {
-                json!({ "by": opinion.name(), "failure": "too long", "limit_s": limit })
-            }
-        });
+        let verified = self
+            .known
+            .check
+            .as_ref()
+            .map(|(opinion, verdict)| match verdict {
+                Verdict::Apart(difference) => {
+                    json!({ "by": opinion.name(), "difference": errors(difference) })
+                }
+                Verdict::Failed(message) => json!({ "by": opinion.name(), "failure": message }),
+                Verdict::TooLong(limit) => {
+                    json!({ "by": opinion.name(), "failure": "too long", "limit_s": limit })
+                }
+            });
         json!({
-            "wanted": self.wanted,
-            "by": self.setting.map(|setting| setting.name()),
-            "runs": self.runs,
-            "estimated": self.estimate.as_ref().map(errors),
-            "before": self.first.as_ref().map(errors),
+            "wanted": self.known.wanted,
+            "by": self.known.setting.map(|setting| setting.name()),
+            "runs": self.known.runs,
+            "estimated": self.known.estimate.as_ref().map(errors),
+            "before": self.known.first.as_ref().map(errors),
             "verified": verified,
         })
     }
@@ -449,7 +400,10 @@ mod tests {
             taken: Cell::new(false),
             then,
         };
-        ErrorReport::of_checked(&check::run(&once, &Job::default(), false, &mut |_, _| {}))
+        {
+            let checked = check::run(&once, &Job::default(), false, &mut |_, _| {});
+            ErrorReport::new(&checked.recording.header, checked.certainty)
+        }
     }
 
     /// On a busy machine milliseconds of work may take a hundred times as long.
@@ -462,7 +416,7 @@ mod tests {
             );
             job.clone()
         });
-        assert!(matches!(checked.check, Some((_, Verdict::Apart(_)))));
+        assert!(matches!(checked.known.check, Some((_, Verdict::Apart(_)))));
     }
 
     /// A promise that cannot be checked is an error; a check that takes too long is only reported.

@@ -24,10 +24,10 @@ use super::parameters::{parse_parameters, values_of};
 use super::prepare::{Prepared, by_rustc, prepare};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
-use crate::accuracy::check::{self, Verdict};
-use crate::accuracy::conditioning;
+use crate::accuracy::check::{self, Certainty, Checked, FAR};
+use crate::accuracy::comparison::PROMISED;
 use crate::accuracy::fastest::fastest;
-use crate::accuracy::setting::{Scheme, Setting};
+use crate::accuracy::setting::Scheme;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;
@@ -568,17 +568,12 @@ impl Arguments {
         let mut hear = |t: f64| progress.set(t - begin);
         interrupt::watch();
         let chosen = job.method.is_some();
-        let (recording, errors) = match self.accuracy {
-            Some(wanted) => {
-                let accurate = target::run(engine, job, wanted, &mut hear);
-                let errors = ErrorReport::of_accurate(&accurate, wanted);
-                (accurate.recording, errors)
-            }
-            None if self.verify || self.no_verify => {
-                let recording = simulation::run(engine, job, &mut hear);
-                let errors = ErrorReport::new(&recording.header, chosen);
-                (recording, errors)
-            }
+        let checked = match self.accuracy {
+            Some(wanted) => target::run(engine, job, wanted, &mut hear),
+            None if self.verify || self.no_verify => Checked {
+                recording: simulation::run(engine, job, &mut hear),
+                certainty: Certainty::none(if chosen { FAR } else { PROMISED }),
+            },
             None => {
                 let mut runs = 0;
                 let mut hear_of = |before: usize, t: f64| {
@@ -589,36 +584,18 @@ impl Arguments {
                     }
                     hear(t);
                 };
-                let checked = check::run(engine, job, chosen, &mut hear_of);
-                let errors = ErrorReport::of_checked(&checked);
-                (checked.recording, errors)
+                check::run(engine, job, chosen, &mut hear_of)
             }
         };
-        let errors = match self.verify && recording.result.is_ok() {
-            true => {
-                let opinion = target::second_opinion(&errors.setting().unwrap_or(Setting::of(job)));
-                let patience = f64::INFINITY;
-                let second = check::second(engine, job, &opinion, patience, &mut hear);
-                let opinion = second
-                    .result
-                    .as_ref()
-                    .map_or(opinion, |report| opinion.as_run(report));
-                let answers = (&job.reading.asked[..], &[][..]);
-                let verdict = Verdict::of(&recording, &second, &[], answers, patience);
-                let verdict = match &verdict {
-                    Verdict::Apart(apart) => {
-                        let made_by = errors.setting().map_or(job.clone(), |s| s.job(job));
-                        let floors =
-                            conditioning::reach(engine, &made_by, &recording, &apart.outputs);
-                        Verdict::of(&recording, &second, &floors, answers, patience)
-                    }
-                    _ => verdict,
-                };
-                errors.verified(opinion, verdict)
-            }
-            false => errors,
-        };
+        let (recording, mut known) = (checked.recording, checked.certainty);
+        if self.verify && recording.result.is_ok() {
+            let made_by = known
+                .setting
+                .map_or(job.clone(), |setting| setting.job(job));
+            known.check = Some(check::verify(engine, (&made_by, &recording), &mut hear));
+        }
         drop(progress);
+        let errors = ErrorReport::new(&recording.header, known);
         (recording, errors)
     }
 }

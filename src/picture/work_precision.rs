@@ -1,8 +1,11 @@
 //! The work–precision diagram: error across, time upwards, both logarithmic. The best variant of each method is a line in a colour of its own, all
 //! others are grey; the Pareto front lies behind the lines, the legend is beside, and a sentence below.
 
+use crate::accuracy::setting::time;
+use bryant_picture::chart::{Axes, power_of_ten};
 use bryant_picture::text::wrap;
 use bryant_picture::{Anchor, Drawing};
+use std::ops::Range;
 
 /// What is drawn.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +80,7 @@ impl Diagram {
     /// The picture.
     pub fn drawing(&self) -> Drawing {
         let [left, top, width, height] = FRAME;
-        let axes = Axes::around(self);
+        let axes = self.axes();
         let sentence = wrap(&self.sentence, CHARACTERS);
         let below = top + height + 62.0;
         let bottom = below + LINE_HEIGHT * sentence.len() as f64;
@@ -85,22 +88,15 @@ impl Diagram {
         let mut drawing = Drawing::new(WIDTH, bottom.max(legend) + 4.0, &self.title, &self.style());
 
         drawing.label("title", [left, 24.0], Anchor::Start, &self.title);
-        drawing.label(
-            "head",
-            [left - 50.0, top - 12.0],
-            Anchor::Start,
-            "time of a run",
-        );
+        // errors that the reference cannot resolve
+        let [own, _] = place(&axes, [self.own, 1.0]);
+        if own > left {
+            drawing.rectangle("unknown", [left, top, own.min(left + width) - left, height]);
+        }
         let across = format!("error in {}, relative", self.error);
-        drawing.label(
-            "head",
-            [left + 0.5 * width, top + height + 40.0],
-            Anchor::Middle,
-            &across,
-        );
-        self.grid(&axes, &mut drawing);
+        axes.draw(&mut drawing, [&across, "time of a run"]);
         drawing.open_clipped("inside", FRAME);
-        let front: Vec<[f64; 2]> = self.visible(&self.front).map(|p| axes.place(p)).collect();
+        let front: Vec<[f64; 2]> = self.visible(&self.front).map(|p| place(&axes, p)).collect();
         if front.len() > 1 {
             drawing.polyline("front", &front);
         }
@@ -117,7 +113,6 @@ impl Diagram {
             drawing.circle("ring", *place, 6.0);
         }
         drawing.close();
-        drawing.rectangle("panel", FRAME);
         self.legend(&best, &mut drawing);
         for (i, text) in sentence.iter().enumerate() {
             let y = below + LINE_HEIGHT * i as f64;
@@ -140,27 +135,6 @@ impl Diagram {
             style += &format!(".m{index}{{stroke:{colour}}}.f{index}{{fill:{colour}}}\n");
         }
         style
-    }
-
-    /// Powers of ten, and the range of errors that the reference cannot resolve.
-    fn grid(&self, axes: &Axes, drawing: &mut Drawing) {
-        let [left, top, width, height] = FRAME;
-        let [own, _] = axes.place([self.own.max(axes.low[0]), axes.low[1]]);
-        if own > left {
-            drawing.rectangle("unknown", [left, top, own.min(left + width) - left, height]);
-        }
-        let mut grid = Vec::new();
-        for (exponent, x) in axes.ticks(0) {
-            grid.push(([x, top], [x, top + height]));
-            let text = power(exponent);
-            drawing.label("tick", [x, top + height + 18.0], Anchor::Middle, &text);
-        }
-        for (exponent, y) in axes.ticks(1) {
-            grid.push(([left, y], [left + width, y]));
-            let text = seconds(exponent);
-            drawing.label("tick", [left - 8.0, y + 4.0], Anchor::End, &text);
-        }
-        drawing.lines("grid", &grid);
     }
 
     /// The best line of each method: the one that is fastest for most errors, among half decades that any line of the method reaches.
@@ -189,7 +163,7 @@ impl Diagram {
     }
 
     fn line(&self, line: &Line, best: bool, axes: &Axes, drawing: &mut Drawing) {
-        let places: Vec<[f64; 2]> = self.visible(&line.points).map(|p| axes.place(p)).collect();
+        let places: Vec<[f64; 2]> = self.visible(&line.points).map(|p| place(axes, p)).collect();
         let method = line.method;
         let (stroke, fill, size) = match best {
             true => (format!("line m{method}"), format!("mark f{method}"), 3.2),
@@ -263,65 +237,49 @@ fn mark(drawing: &mut Drawing, class: &str, fixed: bool, [x, y]: [f64; 2], size:
     }
 }
 
-/// Logarithmic axes around all points; their ends are half decades.
-struct Axes {
-    /// Least error and least time.
-    low: [f64; 2],
-    /// Their decimal logarithms.
-    from: [f64; 2],
-    to: [f64; 2],
-}
-
-impl Axes {
-    fn around(diagram: &Diagram) -> Axes {
-        let all = diagram.lines.iter().map(|line| &line.points);
-        let points = || {
-            let lists = all.clone().chain([&diagram.front]);
-            lists.flat_map(|list| diagram.visible(list))
+impl Diagram {
+    /// Axes of decimal logarithms around all points; their ends are half decades, and ticks are powers of ten.
+    fn axes(&self) -> Axes {
+        let lists = || {
+            self.lines
+                .iter()
+                .map(|line| &line.points)
+                .chain([&self.front])
         };
-        let mut from = [-6.0, -4.0];
-        let mut to = [0.0, -1.0];
-        for axis in 0..2 {
-            let exponents = points().map(|p| libm::log10(p[axis]));
+        let range = |axis: usize, empty: Range<f64>| {
+            let points = lists().flat_map(|list| self.visible(list));
+            let exponents = points.map(|p| libm::log10(p[axis]));
             let (low, high) = exponents.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), e| {
                 (l.min(e), h.max(e))
             });
-            if low <= high {
-                from[axis] = 0.5 * (2.0 * low).floor();
-                to[axis] = (0.5 * (2.0 * high).ceil()).max(from[axis] + 1.0);
+            if low > high {
+                return empty;
             }
-        }
-        Axes {
-            low: from.map(|exponent| libm::pow(10.0, exponent)),
-            from,
-            to,
-        }
-    }
-
-    /// The place of a point on the sheet.
-    fn place(&self, point: [f64; 2]) -> [f64; 2] {
-        let [left, top, width, height] = FRAME;
-        let part = |axis: usize| {
-            let span = self.to[axis] - self.from[axis];
-            (libm::log10(point[axis]) - self.from[axis]) / span
+            let from = 0.5 * (2.0 * low).floor();
+            from..(0.5 * (2.0 * high).ceil()).max(from + 1.0)
         };
-        [left + part(0) * width, top + (1.0 - part(1)) * height]
+        let ranges = [range(0, -6.0..0.0), range(1, -4.0..-1.0)];
+        let ticks = ranges.each_ref().map(|range| {
+            let every = if range.end - range.start > 14.0 { 2 } else { 1 };
+            let whole = range.start.ceil() as i32..=range.end.floor() as i32;
+            let shown = whole.filter(|exponent| exponent % every == 0);
+            shown.map(f64::from).collect()
+        });
+        Axes {
+            frame: FRAME,
+            ranges,
+            ticks,
+            labels: [
+                |exponent, _| power(exponent as i32),
+                |exponent, _| time(power_of_ten(exponent as i32)),
+            ],
+        }
     }
+}
 
-    /// Powers of ten along an axis, as many as fit, with their places.
-    fn ticks(&self, axis: usize) -> Vec<(i32, f64)> {
-        let span = self.to[axis] - self.from[axis];
-        let step = if span > 14.0 { 2 } else { 1 };
-        let (first, last) = (self.from[axis].ceil() as i32, self.to[axis].floor() as i32);
-        let exponents = (first..=last).filter(|e| e % step == 0);
-        exponents
-            .map(|exponent| {
-                let mut point = self.low;
-                point[axis] = bryant_picture::chart::power_of_ten(exponent);
-                (exponent, self.place(point)[axis])
-            })
-            .collect()
-    }
+/// The place of a point on the sheet.
+fn place(axes: &Axes, point: [f64; 2]) -> [f64; 2] {
+    axes.place(point.map(libm::log10))
 }
 
 /// "10⁻⁶", "1"
@@ -338,20 +296,6 @@ fn power(exponent: i32) -> String {
         digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
     });
     format!("10{}", raised.collect::<String>())
-}
-
-/// 10^exponent s with a unit: "10 µs", "1 ms".
-fn seconds(exponent: i32) -> String {
-    let (unit, base) = match exponent {
-        0.. => ("s", 0),
-        -3..=-1 => ("ms", -3),
-        -6..=-4 => ("µs", -6),
-        _ => ("ns", -9),
-    };
-    match exponent - base {
-        digits @ 0..=2 => format!("{} {unit}", 10i32.pow(digits as u32)),
-        digits => format!("{} {unit}", power(digits)),
-    }
 }
 
 #[cfg(test)]
@@ -419,12 +363,12 @@ pub(super) mod tests {
 
     #[test]
     fn places_are_logarithmic() {
-        let axes = Axes::around(&diagram());
+        let axes = diagram().axes();
         let [left, top, width, height] = FRAME;
-        assert_eq!((axes.from, axes.to), ([-9.0, -4.5], [-2.0, -3.0]));
-        let corner = axes.place([1e-9, 1e-3]);
+        assert_eq!(axes.ranges, [-9.0..-2.0, -4.5..-3.0]);
+        let corner = place(&axes, [1e-9, 1e-3]);
         assert!((corner[0] - left).abs() < 1e-9 && (corner[1] - top).abs() < 1e-9);
-        let middle = axes.place([10f64.powf(-5.5), 10f64.powf(-3.75)]);
+        let middle = place(&axes, [10f64.powf(-5.5), 10f64.powf(-3.75)]);
         assert!((middle[0] - left - 0.5 * width).abs() < 1e-9);
         assert!((middle[1] - top - 0.5 * height).abs() < 1e-9);
     }
@@ -442,10 +386,5 @@ pub(super) mod tests {
     #[test]
     fn powers_of_ten_are_written_as_people_do() {
         assert_eq!([power(-12), power(0), power(3)], ["10⁻¹²", "1", "10³"]);
-        assert_eq!(
-            [-7, -6, -4, -1, 0, 2].map(seconds),
-            ["100 ns", "1 µs", "100 µs", "100 ms", "1 s", "100 s"]
-        );
-        assert_eq!(seconds(3), "10³ s");
     }
 }

@@ -47,15 +47,20 @@ impl Scenes {
 
 impl Engine for Scenes {
     fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
-        let outcome = run::run(&*self.equations(scene)?, job);
+        let run = run::run(&*self.equations(scene)?, job);
+        let states = run::states(&run);
+        let mut columns = run.table.columns.into_iter();
+        let times = columns.next().map_or_else(Vec::new, |times| times.values);
+        let outputs: Vec<Vec<f64>> = columns.map(|output| output.values).collect();
+        let sample = |i: usize| outputs.iter().map(|values| values[i]).collect();
         Ok(Run {
-            header: outcome.header,
-            times: outcome.trajectory.times,
-            states: outcome.trajectory.states,
-            outputs: outcome.trajectory.outputs,
-            result: outcome.result,
-            energy: outcome.energy,
-            doubts: outcome.doubts,
+            header: run.header,
+            outputs: (0..times.len()).map(sample).collect(),
+            times,
+            states,
+            result: run.result,
+            energy: run.energy,
+            doubts: run.doubts,
         })
     }
 

@@ -5,7 +5,7 @@
 //! tolerances, and by runs at a tenth of the tolerances as long as these are needed and help.
 
 use super::refusal::parameters;
-use crate::accuracy::setting::{Curves, Pace as OfSetting, Scheme, Setting};
+use crate::accuracy::setting::{Pace as OfSetting, Scheme, Setting};
 use crate::equations::Engine;
 use crate::simulation::{self, Recording};
 use bryant_runtime::batch::Pace;
@@ -90,7 +90,6 @@ fn run(engine: &Engine, job: &Job, row: &[f64], tolerance: f64) -> Option<Record
         pace: OfSetting::Tolerance(tolerance),
         scalar: Scalar::F64,
         locate: settings.locate,
-        curves: Curves::Written,
     };
     let names = engine
         .info()

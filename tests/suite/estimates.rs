@@ -83,6 +83,7 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
             assert!(sharp.result.is_ok(), "{name} {scene}: {:?}", sharp.result);
             let error = Difference::of(&run.recording.table, &sharp.table);
             let estimate = run
+                .certainty
                 .estimate
                 .map_or(f64::INFINITY, |estimate| estimate.worst);
             scenes += 1;

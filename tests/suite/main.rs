@@ -3,9 +3,11 @@
 mod accuracy;
 mod changes;
 mod charts;
+mod closed_form;
 mod compiled;
 mod contacts;
 mod curves;
+mod elliptic;
 mod energy;
 mod equations;
 mod estimates;

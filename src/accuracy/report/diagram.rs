@@ -1,65 +1,48 @@
 //! The work–precision diagram of a study.
 
-use super::text::schemes;
-use crate::accuracy::conclusion::{Conclusion, cost};
+use crate::accuracy::conclusion::{Conclusion, cost, schemes};
 use crate::accuracy::point::Point;
-use crate::accuracy::setting::{Curves, Pace, Setting};
+use crate::accuracy::setting::{Pace, Setting, time};
 use crate::accuracy::study::Study;
 use crate::picture::work_precision::{Diagram, Line};
 use bryant_runtime::program::Scalar;
 
-/// The diagram of a study, without points with exchanged curves, because these belong to another scene.
+/// The diagram of a study.
 pub fn diagram(study: &Study, conclusion: &Conclusion) -> Diagram {
     let schemes = schemes(study);
-    let drawn = |point: &&Point| point.setting.curves == Curves::Written;
-    let points: Vec<&Point> = study.points.iter().filter(drawn).collect();
-    let there = |variant: &&(Scalar, bool)| points.iter().any(|p| of(&p.setting) == **variant);
+    let there =
+        |variant: &&(Scalar, bool)| study.points.iter().any(|p| of(&p.setting) == **variant);
     let variants: Vec<(Scalar, bool)> = VARIANTS.iter().filter(there).copied().collect();
-    let mut lines: Vec<(Setting, Line)> = Vec::new();
-    for point in &points {
-        let setting = &point.setting;
-        let (Some(method), Some(variant)) = (
-            schemes.iter().position(|s| *s == setting.scheme()),
-            variants.iter().position(|v| *v == of(setting)),
-        ) else {
-            continue;
-        };
-        let fixed = matches!(setting.pace, Pace::Step(_));
-        let same =
-            |line: &Line| (line.method, line.variant, line.fixed) == (method, variant, fixed);
-        if !lines.last().is_some_and(|(_, line)| same(line)) {
-            let line = Line {
-                method,
-                variant,
-                fixed,
-                points: Vec::new(),
-            };
-            lines.push((*setting, line));
-        }
-        let cost = cost(study, point);
-        if cost.error.is_finite()
-            && let Some((_, line)) = lines.last_mut()
-        {
-            line.points.push([cost.error, cost.time]);
-        }
-    }
+    let series = study
+        .points
+        .chunk_by(|a, b| a.setting.same_series(&b.setting));
+    let line = |series: &[Point]| {
+        let setting = &series[0].setting;
+        let costs = series.iter().map(|point| cost(study, point));
+        let costs = costs.filter(|cost| cost.error.is_finite());
+        Some(Line {
+            method: schemes.iter().position(|s| *s == setting.scheme())?,
+            variant: variants.iter().position(|v| *v == of(setting))?,
+            fixed: matches!(setting.pace, Pace::Step(_)),
+            points: costs.map(|cost| [cost.error, cost.time]).collect(),
+        })
+    };
     let front = conclusion.front.iter().map(|&index| {
         let cost = cost(study, &study.points[index]);
         [cost.error, cost.time]
     });
-    let own = study.own(Curves::Written);
     Diagram {
         title: format!(
             "{}: what accuracy costs in time, {} simulated",
             study.model,
-            super::super::setting::time(study.duration)
+            time(study.duration)
         ),
         error: study.of.name(&study.reference.readings),
         methods: schemes.iter().map(|s| s.name()).collect(),
         variants: variants.iter().map(|v| name(*v, &variants)).collect(),
-        lines: lines.into_iter().map(|(_, line)| line).collect(),
+        lines: series.filter_map(line).collect(),
         front: front.collect(),
-        own: own.of(study.of),
+        own: study.reference.own.of(study.of),
         sentence: conclusion.sentence(study),
     }
 }

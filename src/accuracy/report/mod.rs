@@ -1,7 +1,5 @@
-//! Reports of a study: text, CSV, JSON, a section of a page, a diagram.
+//! Reports of a study: everything as CSV and JSON, the front as a table and as a page, a diagram.
 
-pub mod csv;
 pub mod diagram;
-pub mod json;
-pub mod markdown;
-pub mod text;
+pub mod front;
+pub mod record;

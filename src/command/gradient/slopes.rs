@@ -4,7 +4,7 @@
 //! method that changes ([`sweep::alone`]).
 
 use super::table::AGREE;
-use crate::accuracy::check::PROMISED;
+use crate::accuracy::comparison::PROMISED;
 use crate::command::Error;
 use crate::command::progress::Progress;
 use crate::equations::Engine;

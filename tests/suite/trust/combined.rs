@@ -2,7 +2,8 @@
 //! method to what is promised, or the run says that it does not.
 
 use super::sound;
-use bryant::accuracy::check::{self, PROMISED, Verdict};
+use bryant::accuracy::check::{self, Verdict};
+use bryant::accuracy::comparison::PROMISED;
 use bryant::simulation;
 use bryant_hard::random::Random;
 use bryant_runtime::program::Job;
@@ -189,8 +190,7 @@ fn laws_that_act_together_are_as_accurate_as_promised_or_said_not_to_be() {
             let (_, engine) = sound(&text);
             let checked = check::run(&engine, &Job::default(), false, &mut |_, _| {});
             let run = &checked.recording;
-            let close =
-                matches!(&checked.check, Some((_, Verdict::Apart(d))) if d.worst <= checked.limit);
+            let close = matches!(&checked.certainty.check, Some((_, Verdict::Apart(d))) if d.worst <= checked.certainty.limit);
             if run.result.is_err() || !run.doubts.is_empty() || !close {
                 continue;
             }

@@ -505,7 +505,7 @@ fn trusted(engine: &Engine, parameters: &[(&str, f64)]) -> Option<Recording> {
         ..Job::default()
     };
     let run = accuracy::run(engine, &job, false, &mut |_, _| {});
-    let close = matches!(&run.check, Some((_, Verdict::Apart(found))) if found.worst <= run.limit);
+    let close = matches!(&run.certainty.check, Some((_, Verdict::Apart(found))) if found.worst <= run.certainty.limit);
     (close && run.recording.doubts.is_empty()).then_some(run.recording)
 }
 

@@ -28,7 +28,7 @@ fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
 
 /// F(φ, k) = ∫₀^φ dθ/√(1 − k² sin²θ) for |φ| ≤ π/2, 0 ≤ k ≤ 1.
 pub fn first_kind(amplitude: f64, modulus: f64) -> f64 {
-    let (sin, cos) = libm::sincos(amplitude);
+    let (sin, cos) = amplitude.sin_cos();
     let product = modulus * sin;
     sin * carlson(cos * cos, (1.0 - product) * (1.0 + product), 1.0)
 }
@@ -48,9 +48,9 @@ pub fn amplitude(u: f64, modulus: f64) -> f64 {
         ratios[rounds] = c / a;
         rounds += 1;
     }
-    let mut phi = a * u * libm::ldexp(1.0, rounds as i32);
+    let mut phi = a * u * f64::from(1u32 << rounds);
     for ratio in ratios[..rounds].iter().rev() {
-        phi = 0.5 * (phi + libm::asin(ratio * libm::sin(phi)));
+        phi = 0.5 * (phi + (ratio * phi.sin()).asin());
     }
     phi
 }
