@@ -454,7 +454,6 @@ fn solved(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 mod tests {
     use super::{End, Settled, Wanted, settle};
     use bryant_generator::Config;
-    use bryant_generator::model;
     use bryant_runtime::Family;
 
     /// Settles a scene; the acceleration is the largest rate of a velocity.

@@ -197,8 +197,8 @@ mod tests {
     use crate::Engine;
     use crate::model::Evaluated;
     use crate::native::there;
+    use bryant_generator::Config;
     use bryant_generator::program::{Combination, Method};
-    use bryant_generator::{Config, model};
     use bryant_runtime::{Adjustable, Real};
     use std::ptr::from_ref;
     use std::sync::Barrier;

@@ -144,7 +144,6 @@ impl Fastest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bryant_generator::model;
 
     /// A rod of J = 0.6 kg m² whose joint has friction of 2 N m, smooth below a rate of 0.01 rad/s: c = 200 N m s/rad at rest. The spring
     /// of 60 N m/rad alone would give 10 1/s.

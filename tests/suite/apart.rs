@@ -6,8 +6,8 @@
 use bryant::build_on_demand::{RustcModel, Text, Unit, UserForces};
 use bryant_engine::{Engine, UserFunctions};
 use bryant_generated::{elbow, skydiver};
-use bryant_generator::model::{ForceKind, Model, scene};
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
+use bryant_generator::model::{ForceKind, Model};
 use bryant_runtime::real::Form;
 use bryant_runtime::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
 use bryant_runtime::{

@@ -7,7 +7,7 @@
 use crate::elliptic::{amplitude, first_kind};
 use crate::estimates::engine_of;
 use bryant::accuracy::reference::{self, Reference};
-use bryant_generator::model::read_str;
+use bryant_generator::read_str;
 use bryant_runtime::program::Job;
 
 /// The body: its centre of gravity [m], mass [kg], moment of inertia [kg m²]; the field [m/s²]; along x and z.

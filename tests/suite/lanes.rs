@@ -3,7 +3,7 @@
 
 use bryant_engine::Engine;
 use bryant_generated::child_seat;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Entry as RowsEntry, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_one_lane};

@@ -2,7 +2,7 @@
 //! amplitudes, in single runs and in lanes.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Pace, Status};
 use bryant_runtime::response::Response;

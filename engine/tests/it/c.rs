@@ -4,9 +4,9 @@
 
 use crate::share::share;
 use bryant_engine::Engine;
+use bryant_generator::Config;
 use bryant_generator::program::{Lists, Method};
 use bryant_generator::target::c::Source;
-use bryant_generator::{Config, model};
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, Several, with_width};
 use bryant_runtime::{Dynamics, Real, Width};
 use std::fmt::Write as _;

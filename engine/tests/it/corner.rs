@@ -6,7 +6,7 @@
 //! harmonic oscillation about a point, so its closed form is known.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::{self, Ended, Scenarios, Series};
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
 use bryant_runtime::{

@@ -6,7 +6,7 @@
 //! may be small by chance: there the default threshold counts, nothing may be said at a third of it, and something must be said at three times it.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};
 use bryant_runtime::response::Response;

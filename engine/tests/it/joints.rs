@@ -2,7 +2,7 @@
 //! absolute coordinates, one body in place of welded ones, and closed forms.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;

@@ -2,7 +2,7 @@
 //! on from an event whose time depends on parameters. Each is compared with central differences of rows, or with a closed form.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Doubt, Pace, Status};
 use bryant_runtime::response::Response;

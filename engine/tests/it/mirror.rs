@@ -4,7 +4,7 @@
 //! parts in the middle have no acceleration along y and none about x and z.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 

@@ -4,7 +4,7 @@
 //! of g over h.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::Dynamics;
 
 /// Step of differences \[s\].

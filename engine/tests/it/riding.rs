@@ -2,7 +2,7 @@
 //! bodies that turn freely and that nothing brakes.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 

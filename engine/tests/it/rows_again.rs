@@ -2,7 +2,7 @@
 //! plate and presses with its weight; and one whose better run cannot be trusted.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Pace, Status};
 use bryant_runtime::response::Response;

@@ -1,7 +1,7 @@
 //! Vehicles that stop and stay at rest, compared with closed forms: over every scalar, in single runs, in lanes and in gradients.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Status};
 use bryant_runtime::response::Response;

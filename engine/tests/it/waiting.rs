@@ -1,7 +1,7 @@
 //! Laws with hysteresis that wait for a switch: what happens before it leaves no trace in them.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 

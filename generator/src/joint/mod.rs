@@ -12,7 +12,6 @@
 //! | `screw` | slides along its axis, and turns about it | d ← d + R a h θ,   R ← R Rot(a, θ) |
 //! | `weld` | has no degree of freedom | |
 //! | `list` | has several degrees of freedom; `universal`, `cylinder`, `planar`, `translation`, `free` | one after the other |
-//! | `follows` | a degree of freedom that follows another | q = ratio · q of the leader + offset |
 //! | `ball` | turns freely; in the plane a hinge about y | A from coordinates of its own |
 //! | `free` | a reference joint that moves freely | p = x |
 //! | `prescribed` | a reference joint that is at rest, has a prescribed motion, or rides on a vehicle | p = x(t) |
@@ -21,22 +20,22 @@
 //! to the carrier, and v = q̇.
 //!
 //! Every joint with one degree of freedom about a fixed axis is a screw: per unit of its coordinate it turns by 1 (or
-//! 0, for a slider), and slides by its advance h (0 for a hinge). A [`Kind`] gives only these two facts; the following
-//! files derive everything else from them:
+//! 0, for a slider), and slides by its advance h (0 for a hinge). A kind gives only these two facts, as a
+//! [`FreedomKind`](crate::model::FreedomKind); everything else is derived from them:
 //!
 //! | file | |
 //! |---|---|
 //! | `twist` | motion and columns H, with Ḣ v, in the equations |
-//! | `placement` | place and columns H in plain numbers |
 //! | `equations` | names and units of coordinates and velocities, and their values at the start |
-//! | `coordinate` | the kind of a coordinate, an angle or a length: its units, and those of related quantities |
-//! | `written` | how a joint is read from its keys |
+//! | `model/placement` | place and columns H in plain numbers |
+//! | `model/resolve/joint` | a joint made from its keys |
+//! | `model/resolve/follows` | degrees of freedom that follow others |
 //!
 //! # A further kind of degree of freedom
 //!
-//! To add a kind, write a file such as `screw.rs`, and add its `mod` and its line in `kinds!` here. No other code asks
-//! for the kind of a degree of freedom. The description language takes the keys from the file, and the model its
-//! numbers; the equations, the frames of links and the pictures use its turn and its advance. Without these three lines
+//! To add a kind, write a file such as `screw.rs`, and add its `mod` and its line in `SPELLINGS` here. No other code asks
+//! for the kind of a degree of freedom. The description language takes the keys from the file, and the model its two
+//! facts; the equations, the frames of links and the pictures use its turn and its advance. Without these three lines
 //! and file there are no screws, and their keys are unknown. Pages and tests must be extended besides:
 //! `docs/reference.md`, `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
 

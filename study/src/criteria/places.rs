@@ -85,7 +85,7 @@ mod tests {
     /// The keys of `criteria` in a model are the places, in the same order.
     #[test]
     fn a_model_has_all_places_as_keys() {
-        let all = vocabulary();
+        let all = vocabulary(bryant_generator::read::LANGUAGE);
         let (_, keys) = all
             .iter()
             .find(|(title, _)| *title == "a set of criteria")

@@ -1,6 +1,5 @@
 //! The documentation page on studies agrees with the program.
 
-use bryant_generator::model::scene;
 use bryant_study::engine::Status;
 use bryant_study::facts::ModelFacts;
 use bryant_study::file::{KEYS, StudyFile};

@@ -1,7 +1,7 @@
 //! The comparison: every method of two models, at many states, to the last bit.
 
 use bryant_engine::{Engine, UserFunctions};
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::real::{Base, Form};
 use bryant_runtime::{

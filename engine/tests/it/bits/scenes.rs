@@ -3,7 +3,7 @@
 //! same bits: outputs of which only some are wanted, and discrete updates with event functions that are already known.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Pace, Settings};
 use bryant_runtime::real::Array8;
