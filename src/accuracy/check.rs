@@ -13,6 +13,9 @@
 //! Where the scene is stiff, the second run changes to the Rosenbrock method, as the first one does. There both use the
 //! same formula, but the second has a tenth of the tolerance.
 //!
+//! A doubt about the run that more accuracy cannot remove, such as a law that is singular where the motion goes, ends
+//! this at once.
+//!
 //! If the user chose the method, the run promises nothing. It is not repeated, and cannot be trusted only if the
 //! difference exceeds [`FAR`].
 
@@ -95,6 +98,9 @@ pub fn run(
     let Ok(report) = &checked.recording.result else {
         return checked;
     };
+    if checked.recording.is_beyond_help() {
+        return checked;
+    }
     checked.setting = checked.setting.as_run(report);
     let begin = Instant::now();
     let wall = checked.recording.wall.as_secs_f64();
@@ -148,6 +154,9 @@ pub fn run(
             *floor = floor.max(*rounding);
         }
         patience = end - begin.elapsed().as_secs_f64();
+        if checked.recording.is_beyond_help() {
+            return checked;
+        }
         checked.out_of_time = patience <= 0.0 && !close && !finest;
         if close || finest || checked.out_of_time {
             if let (false, Some((_, Verdict::Apart(difference)))) = (close, &checked.check) {

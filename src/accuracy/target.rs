@@ -267,7 +267,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         let Pace::Tolerance(tolerance) = setting.pace else {
             break;
         };
-        if refused || good || tolerance <= FINEST {
+        if refused || good || tolerance <= FINEST || recording.is_beyond_help() {
             break;
         }
         let next = Setting {
