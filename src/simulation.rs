@@ -129,6 +129,11 @@ pub fn run_with_poses(
 }
 
 impl Recording {
+    /// True if there is a doubt that a more accurate run would not remove. Then no other run is of use.
+    pub fn is_beyond_help(&self) -> bool {
+        self.doubts.iter().any(|doubt| doubt.lasts)
+    }
+
     /// Replaces the values of filtered outputs in the table by those of the filtered samples. A filter needs the whole
     /// run, so these values are unknown if the run did not reach its end.
     fn show(&mut self, reading: &Reading, kept: Vec<Vec<f64>>) {

@@ -21,5 +21,6 @@ mod signal;
 pub mod table;
 pub mod unit;
 
-pub use recording::{Channel, NoChannel, ReadError, Recording};
+pub use bryant_table::mme::NoChannel;
+pub use recording::{Channel, ReadError, Recording};
 pub use signal::Signal;

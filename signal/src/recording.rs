@@ -1,6 +1,9 @@
 //! Several channels of one test or run.
 
 use crate::Signal;
+use bryant_table::Fault;
+use bryant_table::mme::{self, NoChannel};
+use std::io;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
@@ -48,7 +51,7 @@ pub enum ReadError {
         /// The file.
         path: PathBuf,
         /// The error.
-        error: std::io::Error,
+        error: io::Error,
     },
     /// The content of a file is wrong.
     #[error("{path}:{line}: {message}")]
@@ -63,6 +66,19 @@ pub enum ReadError {
 }
 
 impl ReadError {
+    pub(crate) fn io(path: &Path, error: io::Error) -> Self {
+        ReadError::Io {
+            path: path.to_owned(),
+            error,
+        }
+    }
+
+    /// An error in a table or a file of a test.
+    pub(crate) fn fault(path: &Path, fault: &Fault) -> Self {
+        let message = format!("{}\n  help: {}", fault.message, fault.help);
+        ReadError::content(path, fault.line as u64, message)
+    }
+
     pub(crate) fn content(path: &Path, line: u64, message: impl Into<String>) -> Self {
         ReadError::Content {
             path: path.to_owned(),
@@ -72,25 +88,12 @@ impl ReadError {
     }
 }
 
-/// The bytes of a regular file.
-fn bytes_of(path: &Path) -> Result<Vec<u8>, ReadError> {
-    let failed = |error| ReadError::Io {
-        path: path.to_owned(),
-        error,
-    };
-    if !std::fs::metadata(path).map_err(failed)?.is_file() {
-        return Err(failed(std::io::Error::other("this is no regular file")));
-    }
-    std::fs::read(path).map_err(failed)
-}
-
 /// The text of a regular file: UTF-8, or ISO 8859-1 if it is not valid UTF-8.
-pub(crate) fn text_of(path: &Path) -> Result<String, ReadError> {
-    Ok(match String::from_utf8(bytes_of(path)?) {
-        Ok(text) => text,
-        // each byte of ISO 8859-1 is the character with the same number
-        Err(error) => error.into_bytes().into_iter().map(char::from).collect(),
-    })
+pub(crate) fn text_of(path: &Path) -> io::Result<String> {
+    match std::fs::metadata(path)?.is_file() {
+        true => std::fs::read(path).map(mme::decoded),
+        false => Err(io::Error::other("this is no regular file")),
+    }
 }
 
 impl Recording {
@@ -114,29 +117,10 @@ impl Recording {
     /// # Errors
     /// There is no such channel, or there are several.
     pub fn channel(&self, name: &str) -> Result<&Channel, NoChannel> {
-        let by = |of: fn(&Channel) -> &str| {
-            let all = self.channels.iter().filter(|one| of(one) == name);
-            all.collect::<Vec<&Channel>>()
-        };
-        let found = match by(|one| &one.name) {
-            found if found.is_empty() => by(|one| &one.title),
-            found => found,
-        };
-        match found.as_slice() {
-            [] => Err(NoChannel::Unknown),
-            [one] => Ok(one),
-            several => Err(NoChannel::Several(several.len())),
-        }
+        let channels = self.channels.iter();
+        let all: Vec<(&str, &str)> = channels
+            .map(|c| (c.name.as_str(), c.title.as_str()))
+            .collect();
+        mme::find(&all, name).map(|index| &self.channels[index])
     }
-}
-
-/// Why no channel could be found by a name.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-pub enum NoChannel {
-    /// No channel has this name or title.
-    #[error("no channel has this name")]
-    Unknown,
-    /// This many channels have the name or title.
-    #[error("{0} channels have this name")]
-    Several(usize),
 }

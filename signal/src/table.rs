@@ -12,11 +12,8 @@ use std::path::Path;
 /// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal
 /// intervals.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
-    let text = text_of(path)?;
-    let wrong = |fault: Fault| {
-        let message = format!("{}\n  help: {}", fault.message, fault.help);
-        ReadError::content(path, fault.line as u64, message)
-    };
+    let text = text_of(path).map_err(|error| ReadError::io(path, error))?;
+    let wrong = |fault: Fault| ReadError::fault(path, &fault);
     let table = Table::of(&text).map_err(wrong)?;
     let table = table.ok_or_else(|| ReadError::content(path, 1, "the table is empty"))?;
     let headings = table.headings(&|text| unit::quantity(text).is_some());

@@ -8,6 +8,9 @@
 //! Where the scene is stiff, the second run changes to the Rosenbrock method, as the first one does. There both use the
 //! same formula, but the second has a tenth of the tolerance.
 //!
+//! A doubt about the run that more accuracy cannot remove, such as a law that is singular where the motion goes, ends
+//! this at once.
+//!
 //! If the user chose the method, the run promises nothing. It is not repeated, and cannot be trusted only if the
 //! difference exceeds [`FAR`].
 
@@ -100,27 +103,23 @@ pub fn run(
     chosen: bool,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Checked {
-    let mut recording = simulation::run(model, job, &mut |t| progress(0, t));
-    let mut known = Certainty::none(if chosen { FAR } else { PROMISED });
-    if recording.result.is_ok() {
-        let of = (&mut recording, &mut known);
-        sharpen(model, job, chosen, of, progress);
+    let mut checked = Checked {
+        recording: simulation::run(model, job, &mut |t| progress(0, t)),
+        setting: Setting::of(job),
+        first: None,
+        runs: 1,
+        check: None,
+        limit: if chosen { FAR } else { PROMISED },
+        out_of_time: false,
+        cause: None,
+    };
+    let Ok(report) = &checked.recording.result else {
+        return checked;
+    };
+    if checked.recording.is_beyond_help() {
+        return checked;
     }
-    Checked {
-        recording,
-        certainty: known,
-    }
-}
-
-/// Checks a run, and replaces it by sharper ones until two of them agree.
-fn sharpen(
-    model: &dyn Runs,
-    job: &Job,
-    chosen: bool,
-    (recording, known): (&mut Recording, &mut Certainty),
-    progress: &mut dyn FnMut(usize, f64),
-) {
-    let mut setting = Setting::of(job).as_run(&recording.result);
+    checked.setting = checked.setting.as_run(report);
     let begin = Instant::now();
     let wall = recording.wall.as_secs_f64();
     let end = LONGEST[0].max(LONGEST[1] * wall);
@@ -155,9 +154,12 @@ fn sharpen(
         known.setting = Some(setting);
         let finest = opinion.pace.value() <= FINEST;
         patience = end - begin.elapsed().as_secs_f64();
-        known.out_of_time = patience <= 0.0 && !close && !finest;
-        if close || finest || known.out_of_time {
-            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &known.check) {
+        if checked.recording.is_beyond_help() {
+            return checked;
+        }
+        checked.out_of_time = patience <= 0.0 && !close && !finest;
+        if close || finest || checked.out_of_time {
+            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &checked.check) {
                 let patience = Duration::try_from_secs_f64(end).unwrap_or(Duration::MAX);
                 let job = setting.job(job);
                 let of = (&*recording, difference);

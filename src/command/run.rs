@@ -779,6 +779,7 @@ fn doubt_singular_start(model: &Model, job: &Job, recording: &mut Recording) {
         coordinate: String::new(),
         message: format!("at the start {position}"),
         remedy,
+        lasts: true,
     };
     recording.doubts.insert(0, start);
 }

@@ -1,15 +1,16 @@
-//! Tables of numbers as text (CSV), for curves and recordings, which are read by the same rules.
+//! Tables of numbers as text (CSV) and tests in ISO-MME, for curves and recordings, which are read by the same rules.
 //!
 //! A table has a line for each row, with fields between tabs, `;` or `,`. Empty lines, lines that begin with `#`, and a
 //! byte order mark are skipped. A field may be in quotation marks. The first line may have headings such as `ax [g]`,
 //! with the unit of the column.
 //!
-//! [`mod@unit`] has all units, with their sizes and dimensions.
+//! [`mod@mme`] reads tests in ISO-MME; [`mod@unit`] has all units, with their sizes and dimensions.
 //!
 //! What could be read in two ways is refused: a line with more or fewer fields than the first one, and a decimal comma.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
 mod heading;
+pub mod mme;
 pub mod unit;
 
 pub use heading::Heading;

@@ -1113,7 +1113,7 @@ fn pulses_come_from_channels_of_tests() {
             "{ mme: tests/T1.mme, channel: 10SLED000000ACYD }",
             "10SLED000000ACXD",
         ),
-        ("{ mme: tests/T2.mme, channel: 10SLED000000ACXD }", "T2.chn"),
+        ("{ mme: tests/T2.mme, channel: 10SLED000000ACXD }", "T2.mme"),
         ("{ channel: 10SLED000000ACXD }", "without a test"),
         (
             "{ mme: tests/T1.mme, channel: 10SLED000000ACXD, unit: [ms, N] }",
@@ -1144,5 +1144,157 @@ fn pulses_come_from_channels_of_tests() {
     assert!(error.contains("channel failed"), "{error}");
     channel("m/s^2", &[0.0, f64::NAN]);
     let (_, error) = call(path, &["check", "sled.yaml"], 2);
-    assert!(error.contains("`NaN`, and no number"), "{error}");
+    assert!(error.contains("the sample is missing"), "{error}");
+}
+
+/// The files of a test: `T1.mme`, the list, a pulse and its times; `-` stands for no file.
+#[derive(Clone)]
+struct Files([String; 4]);
+
+impl Files {
+    fn write(&self, path: &Path) {
+        let names = [
+            "T1.mme",
+            "Channel/T1.chn",
+            "Channel/T1.001",
+            "Channel/T1.002",
+        ];
+        for (name, text) in names.into_iter().zip(&self.0) {
+            let file = path.join("tests").join(name);
+            match text.as_str() {
+                "-" => fs::remove_file(file).unwrap_or_default(),
+                text => fs::write(file, text).unwrap(),
+            }
+        }
+    }
+
+    /// With one text in place of another in one of the files.
+    fn with(&self, index: usize, from: &str, to: &str) -> Files {
+        let mut files = self.clone();
+        files.0[index] = files.0[index].replacen(from, to, 1);
+        assert_ne!(files.0[index], self.0[index], "{from}");
+        files
+    }
+
+    /// With other files.
+    fn replaced(&self, others: &[(usize, &str)]) -> Files {
+        let mut files = self.clone();
+        for (index, text) in others {
+            files.0[*index] = (*text).to_owned();
+        }
+        files
+    }
+}
+
+/// A curve and a recording read the same channels from the same files, and refuse the same files at the same place.
+#[test]
+fn curves_and_recordings_read_tests_by_the_same_rules() {
+    let directory = directory();
+    let path = directory.path();
+    fs::create_dir_all(path.join("tests/Channel")).unwrap();
+    let model = "model: sled\ndimension: 2\ncurves:\n  pulse: { mme: tests/T1.mme, channel: 10SLED000000ACXD }\nsystems:\n  - name: man\n    reference: fixed\n    elements:\n      - { name: arm, mass: 2 kg, cg: [0, -0.3], inertia: 0.1 }\n\
+        forces:\n  - field: sled\n    acceleration: [pulse, -9.81]\noutputs:\n  - { name: swing, of: man/arm, what: angle }\nrun: { duration: 60 ms, every: 5 ms }\n";
+    fs::write(path.join("sled.yaml"), model).unwrap();
+    let channel = |code: &str, unit: &str, more: &str, values: &[f64]| {
+        let rows: Vec<String> = values.iter().map(f64::to_string).collect();
+        format!(
+            "Channel code :{code}\nUnit :{unit}\n{more}Number of samples :{}\n{}\n",
+            rows.len(),
+            rows.join("\n")
+        )
+    };
+    let implicit = "Time of first sample :-0.01\nSampling interval :0.01\n";
+    let explicit = "Reference channel :explicit\nReference channel name :10TIRS000000TI00\n";
+    let values = [0.0, 3.0, 20.0, 30.0, 10.0, 0.0];
+    let times = [-0.01, 0.0, 0.01, 0.02, 0.03, 0.04];
+    let list = "Number of channels :2\nName of channel 001 :10SLED000000ACXD / sled\nName of channel 002 :10TIRS000000TI00 / time\n";
+    let sound = Files([
+        "Title :tests of a sled\n".to_owned(),
+        list.to_owned(),
+        channel("10SLED000000ACXD", "m/s^2", implicit, &values),
+        channel("10TIRS000000TI00", "s", "", &times),
+    ]);
+    let swing = || {
+        let table = call(path, &["run", "sled.yaml", "--no-files", "--csv", "-"], 0).0;
+        let row = table.lines().last().unwrap();
+        row.split(',').nth(1).unwrap().parse::<f64>().unwrap()
+    };
+    let read = || {
+        let found = bryant_signal::Recording::read(&path.join("tests/T1.mme"));
+        found.map(|found| found.channels)
+    };
+    sound.write(path);
+    let (expected, recorded) = (swing(), read().unwrap());
+    assert!(expected.abs() > 0.01 && recorded.len() == 1, "{expected}");
+    // the same channel, written in other ways
+    let timed = channel("10SLED000000ACXD", "m/s^2", explicit, &values);
+    let in_g = channel("10sled000000acxd", "g", implicit, &values.map(|x| x / G));
+    let in_ms = channel("10TIRS000000TI00", "ms", "", &times.map(|t| t * 1e3));
+    for files in [
+        sound.replaced(&[(2, &in_g)]),
+        sound.with(2, "10SLED000000ACXD", "NOVALUE"),
+        sound.with(2, "m/s^2", "m/(s*s)"),
+        sound.replaced(&[(2, &timed)]),
+        sound.replaced(&[(2, &timed), (3, &in_ms)]),
+        sound.replaced(&[(1, "-")]),
+        sound.with(0, "tests", "first: test"),
+    ] {
+        files.write(path);
+        let (found, channels) = (swing(), read().unwrap());
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        let [found, expected] = [&channels, &recorded].map(|all| &all[0]);
+        assert_eq!(found.name, expected.name);
+        let factor = bryant_signal::unit::factor(&found.unit, &expected.unit).unwrap();
+        for (a, b) in found.signal.values.iter().zip(&expected.signal.values) {
+            assert!((factor * a - b).abs() < 1e-12, "{channels:?}");
+        }
+        assert!((found.signal.first - expected.signal.first).abs() < 1e-15);
+        assert!((found.signal.interval - expected.signal.interval).abs() < 1e-15);
+    }
+    // damaged files
+    let timed = sound.replaced(&[(2, &timed)]);
+    for (files, place) in [
+        (sound.with(2, ":6", ":7"), "T1.001:5"),
+        (sound.with(2, "\n20\n", "\n2o\n"), "T1.001:8"),
+        (sound.with(2, "\n20\n", "\n20,5\n"), "T1.001:8"),
+        (sound.with(2, "\n20\n", "\nx :20\n"), "T1.001:8"),
+        (sound.with(2, "\n20\n", "\n\n20\n"), "T1.001:9"),
+        (sound.with(2, "l :0.01", "l :0"), "T1.001:4"),
+        (sound.with(2, "Time of first", "Day of"), "T1.001:1"),
+        (sound.with(2, "m/s^2", "m/s^2\nUnit :g"), "T1.001:3"),
+        (sound.with(2, "ACXD", "ACYD"), "T1.001:1"),
+        (sound.with(1, ":2", ":3"), "T1.chn:1"),
+        (sound.replaced(&[(3, "-")]), "T1.chn:3"),
+        (timed.with(3, "Unit :s", "Unit :N"), "T1.002:2"),
+        (timed.with(3, "\n0.02\n", "\n0.01\n"), "T1.002:7"),
+        (
+            timed.with(3, "Unit", "Data status :no data\nUnit"),
+            "T1.002:2",
+        ),
+        (sound.replaced(&[(0, "-")]), "T1.mme"),
+    ] {
+        files.write(path);
+        let recorded = read().unwrap_err().to_string();
+        let (_, curve) = call(path, &["check", "sled.yaml"], 2);
+        assert!(
+            recorded.contains(place) && curve.contains(place),
+            "{place}: {recorded}\n{curve}"
+        );
+        // both use the same words; of a file that is not there the system says its own
+        let first = recorded.lines().next().unwrap();
+        let message = first.split_once(": ").unwrap().1;
+        assert!(
+            place == "T1.mme" || curve.contains(message),
+            "{message}: {curve}"
+        );
+    }
+    // a code that two channels have is refused where it is named
+    let twice = channel("10SLED000000ACXD", "g", implicit, &values);
+    sound.replaced(&[(1, "-"), (3, &twice)]).write(path);
+    let (_, curve) = call(path, &["check", "sled.yaml"], 2);
+    let both = "--channel=10SLED000000ACXD=10SLED000000ACXD";
+    let (_, error) = call(path, &["compare", "tests", "tests", both], 2);
+    for said in [curve, error] {
+        assert!(said.contains("2 channels \"10SLED000000ACXD\""), "{said}");
+    }
 }

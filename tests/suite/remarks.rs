@@ -106,6 +106,49 @@ fn each_mistake_is_said_by_check_and_by_run() {
     }
 }
 
+/// A field without acceleration says that nothing is to have weight, as a number or as a parameter.
+#[test]
+fn a_scene_in_space_says_that_nothing_has_weight() {
+    let directory = directory();
+    let path = directory.path();
+    for zero in ["[0, 0]", "[0, 0 gn]", "[0, nothing]"] {
+        let text = SLED.replacen("[0, -1 gn]", zero, 1).replacen(
+            "parameters: {",
+            "parameters: { nothing: 0 m/s^2,",
+            1,
+        );
+        let told = warnings(path, &text);
+        assert!(
+            !told.iter().any(|one| one.contains("no field acts")),
+            "{told:?}"
+        );
+    }
+}
+
+/// A bristle of a millimetre bends within 0.1 s at 0.01 m/s, and within a day at 1e-8 m/s.
+#[test]
+fn friction_that_takes_for_ever_to_hold_is_said_before_the_run() {
+    let directory = directory();
+    let path = directory.path();
+    let of = |speed: &str| {
+        let law = "stiffness: 100 kN/m, ";
+        let more =
+            format!("{law}friction: 0.3, friction_speed: {speed}, friction_displacement: 1 mm, ");
+        SLED.replacen(law, &more, 1)
+    };
+    let told = warnings(path, &of("1e-8 m/s"));
+    assert!(
+        told.len() == 1
+            && told[0].contains(
+                "contact \"seat\" holds by friction within `friction_displacement`, 1e-3 m"
+            )
+            && told[0].contains("1e5 s")
+            && told[0].contains("near 1e-1 m/s"),
+        "{told:?}"
+    );
+    assert_eq!(warnings(path, &of("0.01 m/s")), [""; 0]);
+}
+
 /// The belt alone ties the man to the sled as well; a body that is said to rest is left alone, and so is a slow one on a conveyor.
 #[test]
 fn a_body_is_left_behind_by_what_ties_it() {

@@ -1,6 +1,5 @@
 //! From a file and those it includes to descriptions with their places.
 
-use super::channel;
 use super::criteria::Criteria;
 use super::curve::{self, Curve};
 use super::expand::instance::rename;
@@ -25,6 +24,8 @@ use super::tree::{Kind, MAX_BYTES, Node, Source};
 use super::vehicle::Vehicle;
 use super::what;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
+use crate::urdf::{self, Imported};
+use bryant_table::mme::{self, NoChannel, Test, Wrong};
 use serde_yaml::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
@@ -241,21 +242,139 @@ pub fn channel_key(mme: &Path, code: &str) -> PathBuf {
     mme.join(code)
 }
 
-/// Reads a file's text, at most [`MAX_BYTES`] and a little: UTF-8, or, of channels of a test, ISO 8859-1.
+/// Reads a file's text, at most [`MAX_BYTES`] and a little: UTF-8, or, of tests in ISO-MME, ISO 8859-1.
 pub fn read_file(path: &Path) -> io::Result<String> {
     use io::Read;
     let mut bytes = Vec::new();
     let file = open_file(path)?;
     file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    let folder = path.parent().and_then(Path::file_name);
-    let of_test = folder.is_some_and(|folder| folder.eq_ignore_ascii_case("channel"));
-    String::from_utf8(bytes).or_else(|error| match of_test {
-        // each byte is the character of its number
-        true => Ok(error.into_bytes().into_iter().map(char::from).collect()),
-        false => Err(match what::of_bytes(error.as_bytes()) {
-            Some(what) => io::Error::new(io::ErrorKind::InvalidData, what),
-            None => io::ErrorKind::InvalidData.into(),
+    let is =
+        |name: Option<&std::ffi::OsStr>, word| name.is_some_and(|n| n.eq_ignore_ascii_case(word));
+    let of_test =
+        is(path.extension(), "mme") || is(path.parent().and_then(Path::file_name), "channel");
+    if of_test {
+        return Ok(mme::decoded(bytes));
+    }
+    String::from_utf8(bytes).map_err(|error| match what::of_bytes(error.as_bytes()) {
+        Some(what) => io::Error::new(io::ErrorKind::InvalidData, what),
+        None => io::ErrorKind::InvalidData.into(),
+    })
+}
+
+/// A fault of a test in ISO-MME: in its file, or, if that cannot be read, where the model names it.
+fn in_test(at: At<'_>, wrong: Wrong) -> Diagnostic {
+    match wrong {
+        Wrong::Io { path, error } => {
+            let (message, help) = unreadable(&shown(&path), &error);
+            at.problem(message, help)
+        }
+        Wrong::Content { path, text, fault } => {
+            let place = (fault.line, fault.column, fault.length);
+            Diagnostic::at(&shown(&path), &text, place, fault.message, fault.help)
+        }
+    }
+}
+
+/// The text of a model, of a file.
+pub struct ModelText {
+    /// The file, for messages.
+    pub name: String,
+    /// YAML: of a URDF file what it was imported as.
+    pub text: String,
+    /// Of a URDF file: its own text, and how it was imported.
+    urdf: Option<(String, Imported)>,
+}
+
+impl ModelText {
+    /// A URDF file as a model.
+    ///
+    /// # Errors
+    /// Every problem of it.
+    pub fn of_urdf(
+        name: String,
+        text: String,
+        options: &urdf::Options,
+    ) -> Result<Self, Diagnostics> {
+        let imported = urdf::import(&name, &text, options)?;
+        Ok(ModelText {
+            name,
+            text: imported.yaml.clone(),
+            urdf: Some((text, imported)),
+        })
+    }
+
+    /// What to know of how it was imported, a sentence each; nothing of a YAML file.
+    pub fn notes(&self) -> &[String] {
+        match &self.urdf {
+            Some((_, imported)) => &imported.notes,
+            None => &[],
+        }
+    }
+
+    /// Whether lines of the text are lines of the file.
+    pub fn is_of_file(&self) -> bool {
+        self.urdf.is_none()
+    }
+
+    /// The line of the file that a line of the text was made of.
+    pub fn line_of_file(&self, line: usize) -> Option<usize> {
+        match &self.urdf {
+            Some((_, imported)) => imported.origin(line).map(|place| place.0),
+            None => Some(line),
+        }
+    }
+
+    /// Problems that were found in the text, as problems of the file.
+    pub fn in_file(&self, mut found: Diagnostics) -> Diagnostics {
+        let Some((text, imported)) = &self.urdf else {
+            return found;
+        };
+        for problem in &mut found.problems {
+            let (message, help) = (problem.message.clone(), problem.help.clone());
+            *problem = match imported.origin(problem.line) {
+                Some(place) => Diagnostic::at(&self.name, text, place, message, help),
+                None => Diagnostic::of_file(&self.name, message, help),
+            };
+        }
+        found.problems.sort_by_key(|p| (p.line, p.column));
+        found
+    }
+}
+
+/// The text of a model: a YAML file, or what a URDF file is as YAML. A file is URDF by its content, XML, or by its name, `.urdf`.
+///
+/// # Errors
+/// A file that cannot be read; every problem of a URDF file.
+pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
+    let (name, text) = (shown(path), read_text(path)?);
+    let is_named_urdf = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("urdf"));
+    match is_named_urdf || urdf::is_xml(&text) {
+        true => ModelText::of_urdf(name, text, &urdf::Options::default()),
+        false => Ok(ModelText {
+            name,
+            text,
+            urdf: None,
         }),
+    }
+}
+
+/// The text of a file: UTF-8, or, of XML, what it says itself.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn read_text(path: &Path) -> Result<String, Diagnostics> {
+    let text = read_file(path).or_else(|error| {
+        let bytes = match error.kind() {
+            io::ErrorKind::InvalidData => read_bytes(path, MAX_BYTES as u64)?,
+            _ => return Err(error),
+        };
+        urdf::decoded(&bytes).ok_or(error)
+    });
+    text.map_err(|error| {
+        let (message, help) = unreadable(&shown(path), &error);
+        Diagnostic::of_file(shown(path), message, help).into()
     })
 }
 
@@ -684,39 +803,46 @@ impl Reader<'_> {
         if self.tables.contains_key(&key) {
             return;
         }
-        let there = |(folder, stem): &(PathBuf, String)| {
-            (self.loader)(&folder.join(format!("{stem}.chn"))).is_ok()
-        };
-        let all = channel::folders(&path);
-        let found = all.iter().find(|one| there(one)).unwrap_or(&all[0]);
-        let (folder, stem) = found;
-        let Some(list) = self.text(at.key("mme"), &folder.join(format!("{stem}.chn"))) else {
-            return;
-        };
-        let number = match channel::number(&list, code) {
-            Ok(number) => number,
-            Err(codes) => {
-                let message = format!("the test has no channel {}", quoted(code));
-                let help = suggestion(code, codes, "it has no channels at all");
-                self.problems.add(at.key("channel").problem(message, help));
-                return;
+        let loader = |path: &Path| match (self.loader)(path) {
+            Ok(text) if text.len() > MAX_BYTES => {
+                let message = format!("it is longer than {} MiB", MAX_BYTES >> 20);
+                Err(io::Error::other(message))
             }
+            read => read,
         };
-        let file = folder.join(format!("{stem}.{number:03}"));
-        let Some(text) = self.text(at.key("channel"), &file) else {
-            return;
-        };
-        match channel::table(&text, code) {
-            Ok((text, unit)) => {
-                let name = shown(&file);
-                let table = Table {
-                    name,
-                    text,
-                    unit: Some(unit),
+        let read = Test::read(&path, &loader).map_err(|wrong| in_test(at.key("mme"), wrong));
+        let found = read.and_then(|test| {
+            let names = test.names();
+            let index = mme::find(&names, code).map_err(|error| {
+                let codes = names.iter().map(|(name, _)| *name);
+                let (message, help) = match error {
+                    NoChannel::Unknown => (
+                        format!("the test has no channel {}", quoted(code)),
+                        suggestion(code, codes, "the names of its channels are their codes"),
+                    ),
+                    NoChannel::Several(count) => (
+                        format!("the test has {count} channels {}", quoted(code)),
+                        "give every channel a name of its own".to_owned(),
+                    ),
                 };
+                at.key("channel").problem(message, help)
+            })?;
+            let channel = test.channel(index);
+            let channel = channel.map_err(|wrong| in_test(at.key("channel"), wrong))?;
+            let (file, text) = test.file(index);
+            let paths = test.paths(index).into_iter().map(Path::to_owned);
+            Ok((
+                Table::of_channel(&shown(file), text, &channel)?,
+                paths.collect(),
+            ))
+        });
+        match found {
+            Ok((table, paths)) => {
+                let paths: Vec<PathBuf> = paths;
+                self.paths.extend(paths);
                 self.tables.insert(key, table);
             }
-            Err((message, help)) => self.problems.add(at.key("channel").problem(message, help)),
+            Err(problem) => self.problems.add(problem),
         }
     }
 

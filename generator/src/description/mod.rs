@@ -10,7 +10,6 @@
 //! Unknown keys are errors. Limits keep hostile text from costing time: files up to 16 MiB, nesting up to 32, 2000
 //! elements, 10 000 points of a curve, 10 000 entries of any other list, 64 files; no aliases, anchors and tags.
 
-mod channel;
 pub mod criteria;
 pub mod curve;
 pub mod element;

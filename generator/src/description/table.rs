@@ -3,6 +3,7 @@
 use super::tree::MAX_BYTES;
 use super::unit::{product, spelled};
 use crate::diagnostic::{Diagnostic, quoted, suggestion};
+use bryant_table::mme::{Channel, Times};
 use bryant_table::{Fault as InTable, Field, Heading};
 
 /// So many lines of numbers are read; of more than a curve may have, some are left out later.
@@ -15,8 +16,8 @@ pub struct Table {
     pub name: String,
     /// Text, without byte order mark, lines ended by `\n`.
     pub text: String,
-    /// Of a channel of a test the unit of its values.
-    pub unit: Option<String>,
+    /// Of a channel of a test, whose text is that of its file, the points.
+    channel: Option<Columns>,
 }
 
 /// Which column is wanted.
@@ -38,7 +39,7 @@ pub struct Row {
 }
 
 /// Two columns.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Columns {
     /// The lines with numbers, two or more.
     pub rows: Vec<Row>,
@@ -72,8 +73,60 @@ impl Table {
         }
         Ok(Table {
             name: name.to_owned(),
-            unit: None,
+            channel: None,
             text: text.trim_start_matches('\u{feff}').replace("\r\n", "\n"),
+        })
+    }
+
+    /// A channel of a test: its times, and its values in its unit.
+    ///
+    /// # Errors
+    /// The data are in doubt, or lack a unit or a sample.
+    pub fn of_channel(name: &str, text: &str, channel: &Channel) -> Result<Table, Diagnostic> {
+        let at = |line: usize, message: String, help: &str| {
+            Err(Diagnostic::at(name, text, (line, 1, 1), message, help))
+        };
+        if let Some(doubt) = &channel.doubt {
+            let help = "give a channel that is sound; if you know that it is, write `Data status :ok` into its file";
+            return at(1, format!("the file says of its data: `{doubt}`"), help);
+        }
+        let Some(unit) = &channel.unit else {
+            let help = "write its unit into the file: `Unit :m/s^2`";
+            return at(1, "the channel has no unit".to_owned(), help);
+        };
+        if product(spelled(unit)).is_none() {
+            let help = "write a unit that is known, such as m/s^2";
+            return at(channel.unit_line, format!("`{unit}` is no unit"), help);
+        }
+        let mut rows = Vec::with_capacity(channel.values.len());
+        for (index, value) in channel.values.iter().enumerate() {
+            let line = channel.line + index;
+            if value.is_nan() {
+                let help =
+                    "a curve has all of its points: cut the channel where samples are missing";
+                return at(line, "the sample is missing".to_owned(), help);
+            }
+            let time = match &channel.times {
+                Times::Even(first, interval) => first + index as f64 * interval,
+                Times::Listed(times) => times[index],
+            };
+            rows.push(Row {
+                values: [time, *value],
+                places: [(line, 1, 1); 2],
+            });
+        }
+        if rows.len() < 2 {
+            let message = "a curve has at least two points, but the channel has one".to_owned();
+            return at(channel.line, message, "give a channel with more samples");
+        }
+        Ok(Table {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            channel: Some(Columns {
+                rows,
+                units: [Some("s".to_owned()), Some(spelled(unit).to_owned())],
+                headings: [(1, 1, 1); 2],
+            }),
         })
     }
 
@@ -82,6 +135,9 @@ impl Table {
     /// # Errors
     /// The first fault found.
     pub fn columns(&self, said: Option<&[Column; 2]>) -> Result<Columns, Fault> {
+        if let Some(channel) = &self.channel {
+            return Ok(channel.clone());
+        }
         let in_file = |fault: InTable| self.in_file(fault);
         let table = bryant_table::Table::of(&self.text).map_err(in_file)?;
         let table = table.ok_or_else(|| {

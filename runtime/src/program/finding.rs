@@ -18,6 +18,8 @@ pub struct Finding {
     pub message: String,
     /// The remedy.
     pub remedy: String,
+    /// True if it holds at every accuracy: [`Problem::lasts`](crate::simulate::Problem::lasts).
+    pub lasts: bool,
 }
 
 impl From<Diagnostic> for Finding {
@@ -29,6 +31,7 @@ impl From<Diagnostic> for Finding {
             coordinate: diagnostic.coordinate().unwrap_or_default().into(),
             message: diagnostic.to_string(),
             remedy: diagnostic.remedy().into(),
+            lasts: diagnostic.problem.lasts(),
         }
     }
 }

@@ -79,6 +79,18 @@ pub enum Problem {
 }
 
 impl Problem {
+    /// True if a more accurate run has the problem, too: the motion goes to where a law says nothing or is singular.
+    pub fn lasts(&self) -> bool {
+        match self {
+            Problem::Curve { .. } | Problem::Flexion { .. } | Problem::Sunk { .. } => true,
+            Problem::Step { .. }
+            | Problem::Missed { .. }
+            | Problem::Energy { .. }
+            | Problem::Momentum { .. }
+            | Problem::Error { .. } => false,
+        }
+    }
+
     /// The largest stable step \[s\], where the step is above it.
     pub fn largest_stable_step(&self) -> Option<f64> {
         match *self {

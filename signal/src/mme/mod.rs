@@ -1,22 +1,81 @@
-//! Recordings as ISO-MME (ISO/TS 13499): a file `TEST.mme` describes the test. Beside it, a folder `Channel` has the
-//! list `TEST.chn` and a file for each channel, `TEST.001` and so on.
+//! Recordings as ISO-MME (ISO/TS 13499); [`bryant_table::mme`] has the rules by which it is read.
 //!
-//! A file has lines `key :value`; the key is 28 columns wide. In a channel file, the lines without a key are the
-//! samples. `NOVALUE` stands for an unknown value; as a sample it is NaN. The samples of a channel are at equal
-//! intervals from the time of the first one (`implicit`), or at the times that another channel lists (`explicit`).
-//!
-//! Text is read as UTF-8, or as ISO 8859-1 if it is not valid UTF-8. Numbers are written with all digits, so that they
-//! are read back exactly.
+//! The key of a line `key :value` is 28 columns wide. Numbers are written with all digits, so that they are read back
+//! exactly.
 
-/// Largest number of channels of a test, because the extension of a channel file has three digits.
-pub const MOST_CHANNELS: usize = 999;
-
-mod lines;
-mod read;
 mod write;
 
-pub use read::read;
-pub use write::{About, is_code, write};
+pub use bryant_table::mme::{MOST_CHANNELS, is_code};
+pub use write::{About, write};
+
+use crate::recording::text_of;
+use crate::{Channel, ReadError, Recording, Signal};
+use bryant_table::mme::{Test, Times, Wrong};
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Reads a test by its file `TEST.mme`, or by a folder with one such file. Explicit times must be at equal intervals.
+///
+/// # Errors
+/// A file is missing or has an error; the message has its line.
+pub fn read(path: &Path) -> Result<Recording, ReadError> {
+    let mme = match path.is_dir() {
+        true => the_only(path)?,
+        false => path.to_owned(),
+    };
+    let test = Test::read(&mme, &text_of).map_err(failed)?;
+    let mut recording = Recording::default();
+    for (index, (name, title)) in test.names().into_iter().enumerate() {
+        let found = test.channel(index).map_err(failed)?;
+        let signal = match found.times {
+            Times::Even(first, interval) => Signal {
+                first,
+                interval,
+                values: found.values,
+            },
+            Times::Listed(times) => Signal::of_samples(&times, &found.values).ok_or_else(|| {
+                let message =
+                    "its times must be two or more, at equal intervals: sample the test evenly";
+                ReadError::content(test.file(index).0, 1, message)
+            })?,
+        };
+        recording.channels.push(Channel {
+            name: name.to_owned(),
+            title: title.to_owned(),
+            unit: found.unit.unwrap_or_default(),
+            doubt: found.doubt,
+            signal,
+        });
+    }
+    Ok(recording)
+}
+
+fn failed(wrong: Wrong) -> ReadError {
+    match wrong {
+        Wrong::Io { path, error } => ReadError::Io { path, error },
+        Wrong::Content { path, fault, .. } => ReadError::fault(&path, &fault),
+    }
+}
+
+/// The only file `.mme` of a folder.
+fn the_only(folder: &Path) -> Result<PathBuf, ReadError> {
+    let is_mme = |path: &PathBuf| {
+        path.extension()
+            .is_some_and(|other| other.eq_ignore_ascii_case("mme"))
+    };
+    let all = std::fs::read_dir(folder).and_then(|entries| {
+        let all = entries.map(|entry| entry.map(|entry| entry.path()));
+        all.collect::<io::Result<Vec<PathBuf>>>()
+    });
+    let mut found = all.map_err(|error| ReadError::io(folder, error))?;
+    found.retain(is_mme);
+    let message = match found.as_slice() {
+        [one] => return Ok(one.clone()),
+        [] => "there is no file .mme in this folder",
+        _ => "there are several files .mme in this folder: name one",
+    };
+    Err(ReadError::content(folder, 1, message))
+}
 
 #[cfg(test)]
 mod tests;

@@ -176,7 +176,7 @@ fn a_channel_says_that_it_failed() {
         let folder = tempfile::tempdir().unwrap();
         laboratory(folder.path());
         let text = format!(
-            "Channel code :11HEAD0000H3ACXA\nData status :{status}\nSampling interval :1e-4\n1\n2\n"
+            "Channel code :11HEAD0000H3ACXA\nData status :{status}\nTime of first sample :0\nSampling interval :1e-4\n1\n2\n"
         );
         fs::write(folder.path().join("CHANNEL/T1.003"), text).unwrap();
         let found = read(folder.path()).unwrap();
@@ -190,34 +190,108 @@ fn what_is_wrong_is_said_with_its_place() {
     let wrong = [
         (
             "Sampling interval :1e-4\nNumber of samples :3\n1\n2\n",
-            "says that it has 3 samples, but has 2",
+            "T1.003:3: the file says that it has 3 samples, but has 2",
         ),
         (
             "Sampling interval :1e-4\n1\nx\n",
-            "T1.003:3: `x` is neither a number",
+            "T1.003:4: `x` is neither a number",
+        ),
+        (
+            "Sampling interval :1e-4\n1\ninf\n",
+            "T1.003:4: `inf` is neither a number",
+        ),
+        (
+            "Sampling interval :1e-4\n1\n2,5\n",
+            "T1.003:4: \"2,5\" is no number",
+        ),
+        (
+            "Sampling interval :1e-4\n1\n\n2\n",
+            "T1.003:5: the line above is empty",
+        ),
+        (
+            "Sampling interval :1e-4\n",
+            "T1.003:1: the channel has no samples",
         ),
         ("Unit :N\n1\n2\n", "`Sampling interval` must be there"),
         (
             "Sampling interval :0\n1\n2\n",
-            "`Sampling interval` must be there",
+            "T1.003:2: the sampling interval is 0 s",
         ),
         (
             "Sampling interval :short\n1\n2\n",
             "`short`, which is not a number",
         ),
         (
+            "Sampling interval :1e-4\nSampling interval :1e-3\n1\n2\n",
+            "T1.003:3: `Sampling interval` has a second value",
+        ),
+        (
+            "Reference channel :sometimes\n1\n",
+            "T1.003:2: `Reference channel` is `sometimes`",
+        ),
+        (
+            "Reference channel :explicit\n1\n",
+            "which channel has the times",
+        ),
+        (
             "Reference channel :explicit\nReference channel name :none\n1\n",
-            "`none`, which does not exist",
+            "T1.003:3: its times are those of the channel `none`, which does not exist",
+        ),
+        (
+            "Reference channel :explicit\nReference channel name :11TIRS00000000TI\n1\n2\n",
+            "its samples are 2, and its times in 11TIRS00000000TI 3",
         ),
     ];
     for (text, told) in wrong {
         let folder = tempfile::tempdir().unwrap();
         laboratory(folder.path());
+        let text = format!("Time of first sample :0\n{text}");
         fs::write(folder.path().join("CHANNEL/T1.003"), text).unwrap();
         let error = read(folder.path()).unwrap_err().to_string();
         assert!(error.contains(told), "{error}");
     }
+    let folder = tempfile::tempdir().unwrap();
+    laboratory(folder.path());
+    let unknown = "Sampling interval :1e-4\n1\n2\n";
+    fs::write(folder.path().join("CHANNEL/T1.003"), unknown).unwrap();
+    let error = read(folder.path()).unwrap_err().to_string();
+    assert!(
+        error.contains("`Time of first sample` must be there"),
+        "{error}"
+    );
     let empty = tempfile::tempdir().unwrap();
     let error = read(empty.path()).unwrap_err().to_string();
     assert!(error.contains("no file .mme"), "{error}");
+}
+
+#[test]
+fn a_list_that_contradicts_the_files_is_refused() {
+    for (list, told) in [
+        (
+            "Number of channels :3\n",
+            "T1.chn:1: the list has 3 channels, but there are 2 files",
+        ),
+        (
+            "Name of channel 003 :x\n",
+            "T1.chn:1: there is no file .003",
+        ),
+        (
+            "Name of channel 2 :x\nName of channel 002 :y\n",
+            "T1.chn:2: the list has the channel 002 twice",
+        ),
+        (
+            "Name of channel two :x\n",
+            "`Name of channel two` has no number",
+        ),
+        (
+            "Name of channel 002 :11SEBE0000B6FO0D / belt\n",
+            "T1.002:2: the file says that this is 11SEBE0000B3FO0D",
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        laboratory(folder.path());
+        fs::write(folder.path().join("CHANNEL/T1.chn"), list).unwrap();
+        let error = read(folder.path()).unwrap_err().to_string();
+        assert!(error.contains(told), "{error}");
+    }
 }

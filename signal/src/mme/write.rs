@@ -1,10 +1,18 @@
 //! Writes ISO-MME.
 
-use super::MOST_CHANNELS;
-use super::lines::{NOVALUE, line};
+use super::{MOST_CHANNELS, is_code};
 use crate::{Channel, Recording, unit};
+use bryant_table::mme::NOVALUE;
 use std::io;
 use std::path::Path;
+
+/// Width of a key in columns.
+const WIDTH: usize = 28;
+
+/// A line with a key and its value.
+fn line(key: &str, value: &str) -> String {
+    format!("{key:<WIDTH$}:{value}\n")
+}
 
 /// The description of a run as a whole.
 #[derive(Clone, Debug, Default)]
@@ -54,12 +62,6 @@ pub fn write(folder: &Path, name: &str, recording: &Recording, about: &About) ->
     }
     std::fs::write(inner.join(format!("{name}.chn")), list)?;
     std::fs::write(folder.join(format!("{name}.mme")), test(about))
-}
-
-/// True if the name of a channel is a channel code: 16 capital letters and digits.
-pub fn is_code(name: &str) -> bool {
-    let fits = |byte: u8| byte.is_ascii_uppercase() || byte.is_ascii_digit();
-    name.len() == 16 && name.bytes().all(fits)
 }
 
 /// The code of a channel. A channel without a code gets one from its number, as an unknown place `X001`, and from the

@@ -4,8 +4,8 @@
 
 use crate::pose::{Numbers, Pose, Vec3, dot};
 use bryant_generator::model::{
-    Active, Against, Body, Contact, Dimension, ElementId, Force, ForceKind, Model, Reference,
-    Scene, Trigger,
+    Active, Against, Body, Bristle, Contact, Dimension, ElementId, Force, ForceKind, Friction,
+    Model, Number, Reference, Scene, Trigger,
 };
 
 /// The start of a run.
@@ -32,6 +32,10 @@ const SLOW: f64 = 1.0;
 /// conveyor \[m/s\].
 const CONVEYED: f64 = 5.0;
 
+/// A bristle of friction usually bends within about this time \[s\]; one that takes longer than [`SLUGGISH`] \[s\] is
+/// held by its damper alone.
+const BENDS: f64 = 0.01;
+const SLUGGISH: f64 = 100.0;
 /// A centre behind a plane by less than this share of its ellipsoid counts as on the plane.
 const ROUNDING: f64 = 1e-6;
 
@@ -56,7 +60,41 @@ impl<'a> Start<'a> {
     pub fn cautions(&self, scene: &Scene) -> Vec<String> {
         let mut all = self.left_behind(scene);
         all.extend(self.behind_planes());
-        all.extend(weightless(self.model));
+        all.extend(weightless(scene));
+        all.extend(self.slow_bristles());
+        all
+    }
+
+    /// Remarks about bristles that hold friction and need very long to bend.
+    fn slow_bristles(&self) -> Vec<String> {
+        let value = |number: &Number| number.value(self.parameters);
+        let slow = |place: String, friction: &Option<Friction>, bristle: &Option<Bristle>, unit| {
+            let (friction, bristle) = (friction.as_ref()?, bristle.as_ref()?);
+            let (speed, displacement) = (value(&friction.tolerance), value(&bristle.displacement));
+            let time = displacement / speed;
+            (time > SLUGGISH).then(|| {
+                format!(
+                    "{place} holds by friction within `friction_displacement`, {displacement:e} {unit}, but at the `friction_speed` of {speed:e} {unit}/s \
+                     its bristle takes {time:.0e} s to bend so far: the damper beside it is so strong that the run may take millions of steps\n  \
+                     help: give a `friction_speed` near {:e} {unit}/s, or leave it out",
+                    displacement / BENDS
+                )
+            })
+        };
+        let mut all = Vec::new();
+        for force in &self.model.forces {
+            match &force.kind {
+                ForceKind::Joint(law) => all.extend(law.about.iter().filter_map(|torque| {
+                    let place = format!("joint \"{}\"", force.name);
+                    slow(place, &torque.friction, &torque.bristle, "rad")
+                })),
+                ForceKind::Contact(contact) => {
+                    let place = format!("contact \"{}\"", force.name);
+                    all.extend(slow(place, &contact.friction, &contact.bristle, "m"));
+                }
+                _ => {}
+            }
+        }
         all
     }
 
@@ -213,8 +251,9 @@ impl<'a> Start<'a> {
 }
 
 /// A remark about a model without any field, but with contacts, belts or airbags: in most of these scenes gravity was
-/// forgotten.
-fn weightless(model: &Model) -> Option<String> {
+/// forgotten. A field without acceleration says that nothing is to have weight.
+fn weightless(scene: &Scene) -> Option<String> {
+    let model = &scene.model;
     let field = |force: &Force| matches!(force.kind, ForceKind::Field(_) | ForceKind::User(_));
     let holds = |force: &Force| {
         matches!(
@@ -222,14 +261,15 @@ fn weightless(model: &Model) -> Option<String> {
             ForceKind::Contact(_) | ForceKind::Belt(_) | ForceKind::Airbag(_)
         )
     };
-    let any = model.forces.iter().any(field);
+    let any = scene.written.forces.iter().any(field);
     (!any && model.forces.iter().any(holds)).then(|| {
-        let down = match model.dimension {
-            Dimension::Plane => "[0, -1 gn]",
-            Dimension::Space => "[0, 0, -1 gn]",
+        let (down, none) = match model.dimension {
+            Dimension::Plane => ("[0, -1 gn]", "[0, 0]"),
+            Dimension::Space => ("[0, 0, -1 gn]", "[0, 0, 0]"),
         };
         format!(
-            "no field acts, so nothing has weight\n  help: gravity is a force of its own: `- {{ field: gravity, acceleration: {down} }}`"
+            "no field acts, so nothing has weight\n  help: gravity is a force of its own: `- {{ field: gravity, acceleration: {down} }}`; \
+             if nothing is to have weight, say so: `- {{ field: none, acceleration: {none} }}`"
         )
     })
 }

@@ -7,6 +7,7 @@
 //! | a bag compressed so far that its law is no longer valid | `a_bag_that_is_pressed_flat_says_so` |
 //! | flexion through 180° | `a_flexion_through_half_a_turn_says_so`; in lanes `tests/suite/sweep/reasons.rs` |
 //! | laws about x, y, z through ±90° about y | `a_joint_through_its_singular_angle_says_so` |
+//! | a doubt that no accuracy removes ends all further runs | `what_no_accuracy_removes_ends_at_once` |
 //! | two ellipsoids that sink through each other | `ellipsoids_that_sink_through_each_other_say_so`; in lanes `tests/suite/sweep/reasons.rs` |
 //! | a step above the limit of stability; the balance of energy | `steps_that_are_too_long_are_told` |
 //! | a step over an event that begins and ends within it; the balance of momentum | `what_steps_pass_over_is_told`,
@@ -241,6 +242,42 @@ fn a_flexion_through_half_a_turn_says_so() {
     for text in [turns, beside, damped] {
         assert_eq!(kinds(&text, &job()), [""; 0], "{text}");
     }
+}
+
+/// A run that goes through a singular angle, or beyond the points of a curve, does so at every accuracy: it is neither
+/// checked nor repeated, also with `--accuracy`. A run whose steps are too long is checked.
+#[test]
+fn what_no_accuracy_removes_ends_at_once() {
+    let directory = crate::directory();
+    let path = directory.path();
+    let runs = |text: &str, options: &[&str]| {
+        std::fs::write(path.join("scene.yaml"), text).unwrap();
+        let all = ["run", "scene.yaml", "--no-files", "--json"];
+        let (printed, error) = call(path, &[&all[..], options].concat(), 3);
+        let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        (printed["accuracy"]["runs"].as_u64().unwrap(), error)
+    };
+    let angle = BENT
+        .replace("axis: z, LAW", "about: { x: { damping: 1e-3 } }")
+        .replace("RATES", "0, 3, 0")
+        .replace("about: flexion", "about: y");
+    let curve = SHELF
+        .replace(", extent: 0.2", "")
+        .replace("mass: 5 kg", "mass: 500 kg");
+    for (text, said) in [(&angle, "±90° about y"), (&curve, "contact shelf")] {
+        for options in [&[][..], &["--accuracy", "1e-4"]] {
+            let (runs, error) = runs(text, options);
+            assert_eq!(runs, 1, "{options:?}: {error}");
+            assert!(error.contains(said), "{error}");
+        }
+    }
+    let line = "{ points: [[-1, -10000], [1, 10000]], extrapolate: linear }";
+    let stiff = SPRING.replace("CURVE", line);
+    let (runs, error) = runs(
+        &stiff,
+        &["--method", "rk4", "--step", "27.5 ms", "--every", "6 s"],
+    );
+    assert!(runs > 1, "{error}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Curves: applies units, checks that abscissae increase, and enters curves that are written in place.
 
 use super::name::Style;
-use super::quantity::{Expected, Measure, PURE, TIME, describe};
+use super::quantity::{Expected, Measure, PURE, describe};
 use super::{AXES, Resolver};
 use crate::description::curve::{
     Curve as Written, Extrapolate as WrittenExtrapolate, Function,
@@ -69,15 +69,10 @@ impl Resolver<'_> {
                 measures[index] = measure;
             }
         }
-        if let Some(table) = self.channel_of(written, at)? {
-            // the loader has found the unit of the channel
-            let unit = Quantity::Text(table.unit.clone().unwrap_or_default());
-            let place = at.key("channel");
-            let (factor, measure) = self.curve_number(&unit, place)?;
-            factors = [1.0, factor];
-            measures = [Measure::Known(TIME.dimension), measure];
-        }
-        let points = self.points(written, at, &mut measures, factors)?;
+        let points = match self.channel_of(written, at)? {
+            Some(table) => self.points_of_table(written, table, at, (&mut measures, factors)),
+            None => self.points(written, at, &mut measures, factors),
+        }?;
         let extrapolate = match written.extrapolate {
             Some(WrittenExtrapolate::Linear) => Extrapolate::Linear,
             Some(WrittenExtrapolate::Error) => Extrapolate::Error,
@@ -167,10 +162,6 @@ impl Resolver<'_> {
                 let table = self.tables.get(&beside(&at.source.name, file));
                 // a file that could not be read has been reported by the loader
                 return self.points_of_table(written, table?, at, (measures, factors));
-            }
-            (None, None) if written.mme.is_some() => {
-                let table = self.channel_of(written, at)??;
-                return self.points_of_table(written, table, at, (measures, factors));
             }
             (None, None) => {
                 self.problems.add(at.problem(
