@@ -11,7 +11,6 @@
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
-use bryant_generator::model;
 use bryant_runtime::batch::rows::{Asked, Job, rows};
 use bryant_runtime::batch::{Pace, Settings as BatchSettings};
 use bryant_runtime::simulate::{Watch, run};

@@ -37,7 +37,7 @@
 //! # Ok::<(), bryant_generator::Diagnostics>(())
 //! ```
 //!
-//! The steps in between are functions, too: [`read`] checks a description, [`dynamics::derive`] makes its
+//! The steps in between are functions, too: [`read()`] checks a description, [`dynamics::derive`] makes its
 //! equations, [`target::rust::module`] writes them.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 

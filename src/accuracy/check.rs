@@ -103,23 +103,27 @@ pub fn run(
     chosen: bool,
     progress: &mut dyn FnMut(usize, f64),
 ) -> Checked {
-    let mut checked = Checked {
-        recording: simulation::run(model, job, &mut |t| progress(0, t)),
-        setting: Setting::of(job),
-        first: None,
-        runs: 1,
-        check: None,
-        limit: if chosen { FAR } else { PROMISED },
-        out_of_time: false,
-        cause: None,
-    };
-    let Ok(report) = &checked.recording.result else {
-        return checked;
-    };
-    if checked.recording.is_beyond_help() {
-        return checked;
+    let mut recording = simulation::run(model, job, &mut |t| progress(0, t));
+    let mut known = Certainty::none(if chosen { FAR } else { PROMISED });
+    if recording.result.is_ok() && !recording.is_beyond_help() {
+        let of = (&mut recording, &mut known);
+        sharpen(model, job, chosen, of, progress);
     }
-    checked.setting = checked.setting.as_run(report);
+    Checked {
+        recording,
+        certainty: known,
+    }
+}
+
+/// Checks a run, and replaces it by sharper ones until two of them agree.
+fn sharpen(
+    model: &dyn Runs,
+    job: &Job,
+    chosen: bool,
+    (recording, known): (&mut Recording, &mut Certainty),
+    progress: &mut dyn FnMut(usize, f64),
+) {
+    let mut setting = Setting::of(job).as_run(&recording.result);
     let begin = Instant::now();
     let wall = recording.wall.as_secs_f64();
     let end = LONGEST[0].max(LONGEST[1] * wall);
@@ -154,12 +158,12 @@ pub fn run(
         known.setting = Some(setting);
         let finest = opinion.pace.value() <= FINEST;
         patience = end - begin.elapsed().as_secs_f64();
-        if checked.recording.is_beyond_help() {
-            return checked;
+        if recording.is_beyond_help() {
+            return;
         }
-        checked.out_of_time = patience <= 0.0 && !close && !finest;
-        if close || finest || checked.out_of_time {
-            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &checked.check) {
+        known.out_of_time = patience <= 0.0 && !close && !finest;
+        if close || finest || known.out_of_time {
+            if let (false, Some((_, Verdict::Apart(difference)))) = (close, &known.check) {
                 let patience = Duration::try_from_secs_f64(end).unwrap_or(Duration::MAX);
                 let job = setting.job(job);
                 let of = (&*recording, difference);

@@ -201,12 +201,9 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
                 ..
             })
         );
-        let close = |e: &Difference| e.worst <= wanted && e.worst_response <= wanted;
-        let good = comparisons > 1 && estimate.as_ref().is_some_and(close);
-        let Pace::Tolerance(tolerance) = setting.pace else {
-            break;
-        };
-        if refused || good || tolerance <= FINEST || recording.is_beyond_help() {
+        let close = known.estimate.as_ref().is_some_and(|e| e.is_within(wanted));
+        let good = comparisons > 1 && close;
+        if refused || good || setting.pace.value() <= FINEST || recording.is_beyond_help() {
             break;
         }
         let next = Setting {

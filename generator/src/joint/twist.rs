@@ -55,7 +55,7 @@ pub fn motion<'g>(
         let e = motion.rotation.times(axis);
         let mut slide = none;
         if let Some(advance) = freedom.kind.advance() {
-            slide = number(graph, &advance) * e;
+            slide = number(graph, advance) * e;
             let step = position * slide;
             let speed = rate * slide;
             slid = slid + step;

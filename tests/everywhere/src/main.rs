@@ -1,7 +1,7 @@
 //! `everywhere MODEL.yaml...` runs each model by the engine. It prints the number of steps and a digest of all times, states and outputs.
 
 use bryant_engine::Engine;
-use bryant_generator::{Config, model};
+use bryant_generator::Config;
 use bryant_runtime::{Dynamics, Settings, simulate};
 use std::error::Error;
 use std::ops::ControlFlow;
