@@ -2,12 +2,12 @@
 //!
 //! | file of a folder | has |
 //! |---|---|
-//! | `keys.rs` | the keys of the YAML ([`Keys`]), with what a mirror image makes of them |
 //! | `keys.rs` | the keys of the YAML ([`Keys`]), and how they change in a mirror image |
 //! | `check.rs` | the checked form, and how it is made from the keys |
 //! | `terms.rs` | its numbers and terms ([`Terms`]): the permitted values, and which parts may be left out |
-//! | `outputs.rs` | what can be asked of it, and what is seen of it ([`Outputs`], [`Measures`], [`OfLaw`], [`Look`]) |
+//! | `force.rs` | its equations ([`Equations`]): forces and moments on bodies, events, states, powers |
 //! | `outputs.rs` | its outputs, and its visible parts ([`Outputs`], [`Measures`], [`OfLaw`], [`Look`]) |
+//!
 //! To add a law, add a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures
 //! and reports never ask a force which law it is. Pages and tests must be extended besides: `docs/forces/`,
 //! `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in

@@ -1,10 +1,10 @@
 //! The resolved model: indices instead of names, SI instead of units, every reference and every number checked.
 //!
 //! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from
-//! [`read`](crate::read()) and [`read_str`](crate::read_str), which report every problem they find. Every [`Model`] has these properties: each system is one tree
-//! with parents before children; names are unique; masses are positive and inertias realisable at the default
-//! parameters; all numbers are finite; curves have increasing abscissae; every index is in range; and the mass matrix
-//! is not structurally singular.
+//! [`read`](crate::read()) and [`read_str`](crate::read_str), which report every problem they find. Every [`Model`] has
+//! these properties: each system is one tree with parents before children; names are unique; masses are positive and
+//! inertias realisable at the default parameters; all numbers are finite; curves have increasing abscissae; every index
+//! is in range; and the mass matrix is not structurally singular.
 
 mod curve;
 mod digest;
