@@ -129,7 +129,7 @@ pub fn run_with_poses(
 }
 
 impl Recording {
-    /// True if there is a doubt that a more accurate run would not remove. Then no other run is of use.
+    /// True if there is a doubt about where the motion goes, which is not one about its accuracy.
     pub fn is_beyond_help(&self) -> bool {
         self.doubts.iter().any(|doubt| doubt.lasts)
     }

@@ -8,14 +8,14 @@
 //! Where the scene is stiff, the second run changes to the Rosenbrock method, as the first one does. There both use the
 //! same formula, but the second has a tenth of the tolerance.
 //!
-//! A doubt about the run that more accuracy cannot remove, such as a law that is singular where the motion goes, ends
-//! this at once.
+//! A doubt that more accuracy does not remove, such as a law that is singular where the motion goes, ends this as soon
+//! as two runs have it ([`doubt_lasts`]).
 //!
 //! If the user chose the method, the run promises nothing. It is not repeated, and cannot be trusted only if the
 //! difference exceeds [`FAR`].
 
 use super::cause::{self, Cause};
-use super::comparison::{Comparison, PROMISED, sharper};
+use super::comparison::{Comparison, PROMISED, doubt_lasts, sharper};
 use super::run;
 use super::setting::{Pace, Setting};
 use super::target::{Difference, FINEST, second_opinion};
@@ -105,7 +105,7 @@ pub fn run(
 ) -> Checked {
     let mut recording = simulation::run(model, job, &mut |t| progress(0, t));
     let mut known = Certainty::none(if chosen { FAR } else { PROMISED });
-    if recording.result.is_ok() && !recording.is_beyond_help() {
+    if recording.result.is_ok() {
         let of = (&mut recording, &mut known);
         sharpen(model, job, chosen, of, progress);
     }
@@ -145,7 +145,8 @@ fn sharpen(
             return;
         };
         let close = difference.is_within(PROMISED);
-        if chosen || (close && known.first.is_none()) {
+        let lasts = doubt_lasts([recording, &second], &opinion);
+        if chosen || lasts || (close && known.first.is_none()) {
             known.check = Some((opinion, verdict));
             return;
         }
@@ -158,9 +159,6 @@ fn sharpen(
         known.setting = Some(setting);
         let finest = opinion.pace.value() <= FINEST;
         patience = end - begin.elapsed().as_secs_f64();
-        if recording.is_beyond_help() {
-            return;
-        }
         known.out_of_time = patience <= 0.0 && !close && !finest;
         if close || finest || known.out_of_time {
             if let (false, Some((_, Verdict::Apart(difference)))) = (close, &known.check) {

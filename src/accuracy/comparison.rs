@@ -9,6 +9,7 @@ use super::conditioning;
 use super::setting::{Pace, Setting};
 use super::target::{Difference, FINEST, NOISE, SHRUNK, largest, largest_by_unit, rounded};
 use crate::simulation::{Recording, Runs};
+use bryant_runtime::Tolerances;
 use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::Job;
 use bryant_runtime::response::Answer;
@@ -128,4 +129,12 @@ pub fn sharper(setting: &Setting) -> f64 {
         Pace::Tolerance(tolerance) => rounded(0.1 * tolerance).max(FINEST),
         Pace::Step(_) => 1e-8,
     }
+}
+
+/// True if sharper runs would have the same doubts as two successive ones: both are [beyond
+/// help](Recording::is_beyond_help), and the sharper one, of this setting, has at most the default tolerance. A coarser
+/// run may go where the motion does not.
+pub fn doubt_lasts(runs: [&Recording; 2], sharper: &Setting) -> bool {
+    let is_sharp = sharper.pace.value() <= Tolerances::default().relative;
+    is_sharp && runs.iter().all(|run| run.is_beyond_help())
 }

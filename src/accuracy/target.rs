@@ -13,7 +13,7 @@
 //! Rosenbrock method.
 
 use super::check::{Certainty, Checked};
-use super::comparison::{Comparison, PROMISED, sharper};
+use super::comparison::{Comparison, PROMISED, doubt_lasts, sharper};
 use super::setting::{Pace, Setting};
 use crate::simulation::{self, Recording, Runs};
 use crate::table::{Column, Table};
@@ -203,7 +203,7 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
         );
         let close = known.estimate.as_ref().is_some_and(|e| e.is_within(wanted));
         let good = comparisons > 1 && close;
-        if refused || good || setting.pace.value() <= FINEST || recording.is_beyond_help() {
+        if refused || good || setting.pace.value() <= FINEST {
             break;
         }
         let next = Setting {
@@ -228,7 +228,11 @@ pub fn run(model: &dyn Runs, job: &Job, wanted: f64, progress: &mut dyn FnMut(f6
                 None
             }
         };
+        let lasts = doubt_lasts([&recording, &sharper], &next);
         (recording, setting) = (sharper, next);
+        if lasts {
+            break;
+        }
     }
     known.setting = Some(setting);
     Checked {

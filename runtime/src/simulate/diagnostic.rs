@@ -79,7 +79,8 @@ pub enum Problem {
 }
 
 impl Problem {
-    /// True if a more accurate run has the problem, too: the motion goes to where a law says nothing or is singular.
+    /// True if the motion goes to where a law says nothing or is singular: a more accurate run has the problem, too,
+    /// unless only errors of this one lead there.
     pub fn lasts(&self) -> bool {
         match self {
             Problem::Curve { .. } | Problem::Flexion { .. } | Problem::Sunk { .. } => true,

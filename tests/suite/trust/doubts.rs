@@ -265,9 +265,10 @@ fn what_no_accuracy_removes_ends_at_once() {
         .replace(", extent: 0.2", "")
         .replace("mass: 5 kg", "mass: 500 kg");
     for (text, said) in [(&angle, "±90° about y"), (&curve, "contact shelf")] {
-        for options in [&[][..], &["--accuracy", "1e-4"]] {
+        // at the default tolerance 1e-7 and a tenth of it; from the tolerance 1e-4 down to 1e-7
+        for (options, enough) in [(&[][..], 2), (&["--accuracy", "1e-4"], 4)] {
             let (runs, error) = runs(text, options);
-            assert_eq!(runs, 1, "{options:?}: {error}");
+            assert!(runs <= enough, "{options:?}: {error}");
             assert!(error.contains(said), "{error}");
         }
     }
@@ -278,6 +279,38 @@ fn what_no_accuracy_removes_ends_at_once() {
         &["--method", "rk4", "--step", "27.5 ms", "--every", "6 s"],
     );
     assert!(runs > 1, "{error}");
+}
+
+/// A coarse run may leave a curve that the motion does not leave: x = 0.1 sin 10 t on a spring known up to 0.1002.
+#[test]
+fn a_doubt_of_a_coarse_run_alone_does_not_last() {
+    let directory = crate::directory();
+    let path = directory.path();
+    let text = "model: swing
+dimension: 2
+systems:
+  - name: a
+    reference: fixed
+    elements: [{ name: b, mass: 1 kg, cg: [0, 0], inertia: 1, joint: [{ slider: x }] }]
+    start: { joint_rates: { b: 1 } }
+forces: [{ joint: a/b, elastic: { points: [[-0.1002, -10.02], [0.1002, 10.02]] } }]
+outputs: [{ name: x, of: a/b, what: position, component: x }]
+run: { duration: 20 s, every: 0.1 s }
+";
+    std::fs::write(path.join("scene.yaml"), text).unwrap();
+    for accuracy in ["0.1", "1e-3"] {
+        let options = [
+            "run",
+            "scene.yaml",
+            "--no-files",
+            "--json",
+            "--accuracy",
+            accuracy,
+        ];
+        let (printed, _) = call(path, &options, 0);
+        let printed: serde_json::Value = serde_json::from_str(&printed).unwrap();
+        assert!(printed["accuracy"]["runs"].as_u64().unwrap() > 1);
+    }
 }
 
 #[test]
