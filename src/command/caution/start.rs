@@ -84,10 +84,22 @@ impl<'a> Start<'a> {
         let mut all = Vec::new();
         for force in &self.model.forces {
             match &force.kind {
-                ForceKind::Joint(law) => all.extend(law.about.iter().filter_map(|torque| {
+                ForceKind::Joint(law) => {
+                    let bending = law.bending.iter();
+                    let bending = bending.flat_map(|bending| [&bending.flexion, &bending.torsion]);
+                    let torques = law.about.iter().chain(bending);
+                    all.extend(torques.filter_map(|torque| {
+                        let place = format!("joint \"{}\"", force.name);
+                        slow(place, &torque.friction, &torque.bristle, "rad")
+                    }));
+                }
+                ForceKind::Freedom(on) => {
+                    let joint =
+                        &self.model.systems[on.child.system].elements[on.child.element].joint;
+                    let [unit, _] = joint.freedoms()[on.freedom].kind.coordinate().units();
                     let place = format!("joint \"{}\"", force.name);
-                    slow(place, &torque.friction, &torque.bristle, "rad")
-                })),
+                    all.extend(slow(place, &on.law.friction, &on.law.bristle, unit));
+                }
                 ForceKind::Contact(contact) => {
                     let place = format!("contact \"{}\"", force.name);
                     all.extend(slow(place, &contact.friction, &contact.bristle, "m"));
