@@ -274,6 +274,31 @@ fn in_test(at: At<'_>, wrong: Wrong) -> Diagnostic {
     }
 }
 
+/// A channel of a test as a table, and the files that it is read from. `at` is the curve that names it.
+fn channel_of(test: &Test, code: &str, at: At<'_>) -> Result<(Table, Vec<PathBuf>), Diagnostic> {
+    let names = test.names();
+    let index = mme::find(&names, code).map_err(|error| {
+        let codes = names.iter().map(|(name, _)| *name);
+        let (message, help) = match error {
+            NoChannel::Unknown => (
+                format!("the test has no channel {}", quoted(code)),
+                suggestion(code, codes, "the names of its channels are their codes"),
+            ),
+            NoChannel::Several(count) => (
+                format!("the test has {count} channels {}", quoted(code)),
+                "give every channel a name of its own".to_owned(),
+            ),
+        };
+        at.key("channel").problem(message, help)
+    })?;
+    let channel = test.channel(index);
+    let channel = channel.map_err(|wrong| in_test(at.key("channel"), wrong))?;
+    let (file, text) = test.file(index);
+    let paths = test.paths(index).into_iter().map(Path::to_owned);
+    let table = Table::of_channel(&shown(file), text, &channel)?;
+    Ok((table, paths.collect()))
+}
+
 /// Reads a file of at most so many bytes; a longer one is an error.
 pub fn read_bytes(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     use io::Read;
@@ -330,6 +355,7 @@ pub fn load(
         problems: Problems::new(language),
         files: Vec::new(),
         tables: BTreeMap::new(),
+        tests: BTreeMap::new(),
         sources: BTreeMap::new(),
         paths: Vec::new(),
         included: BTreeSet::new(),
@@ -362,6 +388,8 @@ struct Reader<'a> {
     problems: Problems,
     files: Vec<File>,
     tables: BTreeMap<PathBuf, Table>,
+    /// Tests in ISO-MME that curves name, by their path.
+    tests: BTreeMap<PathBuf, Test>,
     sources: BTreeMap<PathBuf, String>,
     paths: Vec<PathBuf>,
     /// The files read already, with the name of their system where another was asked for.
@@ -644,13 +672,21 @@ impl Reader<'_> {
         self.text_or(at, path, None)
     }
 
-    /// The same with a remedy for a file that does not exist.
-    fn text_or(&mut self, at: At<'_>, path: &Path, missing: Option<&str>) -> Option<String> {
-        if self.paths.len() == MAX_FILES {
+    /// True if so many more files are more than a model may have; reports this.
+    fn too_many_files(&self, at: At<'_>, more: usize) -> bool {
+        let too_many = self.paths.len() + more > MAX_FILES;
+        if too_many {
             self.problems.add(at.problem(
                 format!("the model is made of more than {MAX_FILES} files"),
                 "join files",
             ));
+        }
+        too_many
+    }
+
+    /// The same with a remedy for a file that does not exist.
+    fn text_or(&mut self, at: At<'_>, path: &Path, missing: Option<&str>) -> Option<String> {
+        if self.too_many_files(at, 1) {
             return None;
         }
         match (self.loader)(path) {
@@ -699,44 +735,29 @@ impl Reader<'_> {
         if self.tables.contains_key(&key) {
             return;
         }
-        let loader = |path: &Path| match (self.loader)(path) {
-            Ok(text) if text.len() > MAX_BYTES => {
-                let message = format!("it is longer than {} MiB", MAX_BYTES >> 20);
-                Err(io::Error::other(message))
-            }
-            read => read,
-        };
-        let read = Test::read(&path, &loader).map_err(|wrong| in_test(at.key("mme"), wrong));
-        let found = read.and_then(|test| {
-            let names = test.names();
-            let index = mme::find(&names, code).map_err(|error| {
-                let codes = names.iter().map(|(name, _)| *name);
-                let (message, help) = match error {
-                    NoChannel::Unknown => (
-                        format!("the test has no channel {}", quoted(code)),
-                        suggestion(code, codes, "the names of its channels are their codes"),
-                    ),
-                    NoChannel::Several(count) => (
-                        format!("the test has {count} channels {}", quoted(code)),
-                        "give every channel a name of its own".to_owned(),
-                    ),
-                };
-                at.key("channel").problem(message, help)
-            })?;
-            let channel = test.channel(index);
-            let channel = channel.map_err(|wrong| in_test(at.key("channel"), wrong))?;
-            let (file, text) = test.file(index);
-            let paths = test.paths(index).into_iter().map(Path::to_owned);
-            Ok((
-                Table::of_channel(&shown(file), text, &channel)?,
-                paths.collect(),
-            ))
-        });
-        match found {
-            Ok((table, paths)) => {
-                let paths: Vec<PathBuf> = paths;
-                self.paths.extend(paths);
-                self.tables.insert(key, table);
+        if !self.tests.contains_key(&path) {
+            let loader = |path: &Path| match (self.loader)(path) {
+                Ok(text) if text.len() > MAX_BYTES => {
+                    let message = format!("it is longer than {} MiB", MAX_BYTES >> 20);
+                    Err(io::Error::other(message))
+                }
+                read => read,
+            };
+            match Test::read(&path, &loader) {
+                Ok(test) => self.tests.insert(path.clone(), test),
+                Err(wrong) => {
+                    self.problems.add(in_test(at.key("mme"), wrong));
+                    return;
+                }
+            };
+        }
+        match channel_of(&self.tests[&path], code, at) {
+            Ok((table, mut paths)) => {
+                paths.retain(|path| !self.paths.contains(path));
+                if !self.too_many_files(at.key("mme"), paths.len()) {
+                    self.paths.append(&mut paths);
+                    self.tables.insert(key, table);
+                }
             }
             Err(problem) => self.problems.add(problem),
         }

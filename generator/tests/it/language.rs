@@ -1,4 +1,5 @@
 //! The meaning of models: names become indices, quantities become SI numbers, absent effects become nothing.
+
 use bryant_generator::model::{
     Asked, BeltLength, Body, Component, Dimension, ElementId, Extrapolate, Field, FieldComponent,
     ForceKind, Given, JointOutput, Load, Model, Number, PointQuantity, Projection, Quantity,
@@ -846,4 +847,49 @@ fn resultants_are_not_filtered() {
             "{of}"
         );
     }
+}
+
+/// Curves of one test read each of its files once, and count as files of the model.
+#[test]
+fn curves_of_one_test_read_it_once() {
+    let head = "Time of first sample :0\nSampling interval :0.001\nUnit :m/s^2\n";
+    let model = "model: sled
+dimension: 2
+vehicles: [{ name: sled, acceleration: [{ curve: pulse }, { curve: heave }] }]
+curves:
+  pulse: { mme: t.mme, channel: 10SLED000000ACX0, extrapolate: hold }
+  heave: { mme: t.mme, channel: 10SLED000000ACZ0, extrapolate: hold }
+systems:
+  - name: a
+    reference: free
+    elements: [{ name: b, mass: 1 kg, cg: [0, 0], inertia: 1 }]
+outputs: [{ name: x, of: sled, what: acceleration, component: x }]
+run: { duration: 1 ms, every: 1 ms }
+";
+    let channel = |code: &str| format!("Channel code :{code}\n{head}0\n1\n");
+    let texts = [
+        ("t.mme", "Test title :x\n".to_owned()),
+        ("Channel/t.001", channel("10SLED000000ACX0")),
+        ("Channel/t.002", channel("10SLED000000ACZ0")),
+    ];
+    let asked = std::cell::RefCell::new(Vec::new());
+    let loader = |path: &Path| {
+        let path = path.to_string_lossy().replace('\\', "/");
+        let text = texts.iter().find(|(name, _)| *name == path);
+        asked.borrow_mut().push(path);
+        text.map(|(_, text)| text.clone())
+            .ok_or_else(|| io::ErrorKind::NotFound.into())
+    };
+    let (_, files) = read_str("sled.yaml", model, &loader).unwrap_or_else(|e| panic!("{e}"));
+    let mut asked = asked.into_inner();
+    let all = asked.len();
+    asked.sort();
+    asked.dedup();
+    assert_eq!(asked.len(), all, "a file is read again");
+    let files: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    assert_eq!(
+        files,
+        ["sled.yaml", "t.mme", "Channel/t.001", "Channel/t.002"]
+            .map(|f| f.replace('/', std::path::MAIN_SEPARATOR_STR))
+    );
 }
