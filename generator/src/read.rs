@@ -1,4 +1,4 @@
-//! Reads models: the front door, which knows all kinds of joints and all forms in which a model may be written.
+//! Reads models. This is the front door: it knows all kinds of joints, and models in YAML and in URDF.
 
 use crate::description::load::{Loaded, read_file};
 use crate::diagnostic::Diagnostics;
@@ -26,7 +26,10 @@ pub const LANGUAGE: &crate::description::language::Language =
 
 /// Reads a model and the files it includes.
 ///
-/// Returns the model and every file read, the model's own first. An `Err` holds every problem found, with its place.
+/// Returns the model and every file read, the model's own first.
+///
+/// # Errors
+/// Every problem found, with its place.
 pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
     let read = read_model(path)?;
     read_str(&read.name, &read.text, &read_file).map_err(|found| read.in_file(found))
@@ -37,6 +40,9 @@ pub fn read(path: &Path) -> Result<(Model, Vec<PathBuf>), Diagnostics> {
 /// `name` is the name of the file in messages. Paths of included files are relative to it: a model `models/sled.yaml`
 /// that includes `data/child.yaml` asks `loader` for `models/data/child.yaml`. Returns the model and the names of the
 /// files read.
+///
+/// # Errors
+/// Every problem found, with its place.
 pub fn read_str(
     name: &str,
     text: &str,
@@ -47,6 +53,9 @@ pub fn read_str(
 }
 
 /// Like [`read`], but without the Rust files of user forces, which may be missing: for writing these files.
+///
+/// # Errors
+/// Every other problem found, with its place.
 pub fn read_without_sources(
     name: &str,
     text: &str,
@@ -56,6 +65,9 @@ pub fn read_without_sources(
 }
 
 /// Reads a model like [`read`], together with the places of its parts.
+///
+/// # Errors
+/// Every problem found, with its place.
 pub fn read_scene(path: &Path) -> Result<Scene, Diagnostics> {
     let text = read_model(path)?;
     let mut scene =
@@ -68,6 +80,9 @@ pub fn read_scene(path: &Path) -> Result<Scene, Diagnostics> {
 }
 
 /// Reads a model from text like [`read_str`], together with the places of its parts.
+///
+/// # Errors
+/// Every problem found, with its place.
 pub fn read_scene_str(
     name: &str,
     text: &str,

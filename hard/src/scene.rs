@@ -1,4 +1,5 @@
 //! A scene to be simulated: a model as a user writes it.
+
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_generator::model::Model;
 use bryant_generator::read_str;

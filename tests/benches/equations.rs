@@ -1,5 +1,6 @@
 //! Times of derivation and evaluation, with operation counts. `cargo bench` measures; `cargo test --bench equations` does each once, to see
 //! that it works.
+
 use bryant_generator::Config;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::read;

@@ -1,4 +1,5 @@
 //! Compiled equations behind function pointers, with the YAML that they were generated from.
+
 use bryant_generator::model::Model;
 use bryant_generator::read;
 use bryant_runtime::ParameterSet;

@@ -1,4 +1,5 @@
 //! Stops and locks of joints, flexion and torsion: against closed forms, planar models, and invariants of every torque.
+
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;

@@ -4,6 +4,7 @@
 //! Along the line y + s ẏ, with memory held, the second difference of ẏ over a grid of width h is h² ẏ″ in smooth parts. At a kink it is
 //! about h times the jump of the slope, in the one or two differences that contain the kink. A second difference that is many times larger
 //! than its neighbours cannot come from the smooth part on a grid that resolves it, so it is a kink.
+
 use crate::share::share;
 use bryant_generator::model::{ForceKind, Model};
 use bryant_generator::read;

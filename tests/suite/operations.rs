@@ -1,6 +1,7 @@
 //! The number of operations in one evaluation of the accelerations, as `bryant check` prints it; a fused multiply-add counts as two.
 //!
 //! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the actual counts.
+
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;

@@ -1,4 +1,5 @@
 //! Texts for review by a person: equations small enough to be checked by hand, and the costs of the bundled models.
+
 use bryant::notation::Notation;
 use bryant_generator::Config;
 use bryant_generator::dynamics::{derive, derive_in_first_chart};

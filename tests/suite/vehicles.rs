@@ -1,4 +1,5 @@
 //! Vehicles: bodies attached to them move relative to them as expected, wherever the vehicles are.
+
 use crate::given::{compare_with_lagrange, scaled, wave};
 use crate::motion::{close, run_with_bound};
 use bryant::evaluation::functions;

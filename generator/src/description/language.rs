@@ -1,5 +1,5 @@
-//! The parts of the language that its users bring along: the kinds of joints. Whoever reads a text hands them in, so that
-//! no file of this folder names a kind.
+//! The kinds of joints as the language knows them. Whoever reads a text hands them in, so that reading asks for no kind by
+//! its name; only the mirror images of lists (`expand/axes.rs`) name theirs.
 
 use super::joint::{JointKey, JointWord};
 

@@ -19,7 +19,7 @@ const MAX_PROBLEMS: usize = 1000;
 
 /// Problems found so far.
 pub struct Problems {
-    /// The kinds of joints and forces that the texts may name.
+    /// The kinds of joints that the texts may name.
     pub language: &'static Language,
     /// The first, each once.
     kept: RefCell<Vec<Diagnostic>>,

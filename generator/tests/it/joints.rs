@@ -1,4 +1,5 @@
 //! Joints with freedoms of their own: the equations against Lagrange's, against each other, and against closed forms.
+
 use crate::share::share;
 use bryant_generator::dynamics::lagrange::lagrange;
 use bryant_generator::dynamics::{Options, derive_with};

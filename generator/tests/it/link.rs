@@ -1,4 +1,5 @@
 //! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them the generator would choose.
+
 use crate::share::share;
 use bryant_generator::dynamics::augmented::AugmentedTree;
 use bryant_generator::dynamics::kinematics::{Motion, State};

@@ -1,4 +1,5 @@
 //! The table of methods.
+
 use bryant_generator::dynamics::derive;
 use bryant_generator::method::Method;
 use bryant_generator::method::inputs::Inputs;

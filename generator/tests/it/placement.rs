@@ -1,4 +1,5 @@
 //! Place and columns of joints in numbers.
+
 use bryant_generator::model::Freedom;
 use bryant_generator::model::placement::{columns, placed};
 use bryant_generator::read_str;

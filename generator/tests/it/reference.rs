@@ -1,4 +1,5 @@
 //! The reference page agrees with the program: every key of every record, and valid examples.
+
 use bryant_generator::description::vocabulary;
 use bryant_generator::read::LANGUAGE;
 use bryant_generator::read_str;

@@ -1,5 +1,6 @@
 //! Short forms: lists, mirror images, named surfaces and groups, instances. Their generated text equals byte for byte that of the long
 //! form, whether the program writes the long form (`check --long`) or a person.
+
 use bryant_generator::dynamics::derive;
 use bryant_generator::equations::Equations;
 use bryant_generator::model::{Model, Number};

@@ -1,4 +1,5 @@
 //! User forces: their Rust files are part of the model, and the generated text contains them.
+
 use bryant_generator::model::Model;
 use bryant_generator::read_str;
 use bryant_generator::read_without_sources;

@@ -1,4 +1,5 @@
 //! Valid models to start from; together they have every kind of force, motion, switch and output.
+
 use crate::scene::Scene;
 use bryant_generator::Diagnostics;
 use bryant_generator::model::Model;
