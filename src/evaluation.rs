@@ -5,7 +5,8 @@ use bryant_engine::UserFunctions;
 use bryant_generator::equations::{Equations, LawState, Variable};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
 use serde::{Deserialize, Serialize};
 
 mod functions;
@@ -182,7 +183,7 @@ pub fn at(
 fn knows_user_forces(model: &Model, users: Option<&dyn UserFunctions>) -> Result<(), StateError> {
     for (index, force) in model.forces.iter().enumerate() {
         let known = users.is_some_and(|users| users.knows(index));
-        if let ForceKind::User(user) = &force.kind
+        if let ForceKind::User(user) = ForceKind::of(force)
             && !known
         {
             return Err(StateError::User {

@@ -6,7 +6,8 @@
 use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::print::{self, latex};
 use bryant_generator::expression::{Function, Symbol};
-use bryant_generator::model::{Force, ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::{Force, Model};
 
 /// The names of the inputs and functions of a model.
 #[derive(Clone, Debug)]
@@ -97,7 +98,7 @@ impl Notation {
 
 /// Names of the results of a user force's function: `drag_returns_head_force_x`.
 fn results(force: &Force) -> Vec<String> {
-    match &force.kind {
+    match ForceKind::of(force) {
         ForceKind::User(user) => {
             let results = user.results();
             let function = identifier(user.function.name.rsplit("::").next().unwrap_or_default());

@@ -5,7 +5,8 @@
 
 use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::model::{Coordinates, Dimension, ForceKind, Model};
+use crate::law::ForceKind;
+use crate::model::{Coordinates, Dimension, Model};
 use crate::program::{self, Lists};
 use crate::target::{c, rust};
 use crate::{Error, dynamics};
@@ -413,7 +414,7 @@ pub fn including(generated: &Generated) -> String {
     let mut text = generated.source.clone();
     let beside = generated.read.first().and_then(|model| model.parent());
     for force in &generated.model.forces {
-        let ForceKind::User(user) = &force.kind else {
+        let ForceKind::User(user) = ForceKind::of(force) else {
             continue;
         };
         let Some(source) = &user.function.source else {

@@ -3,6 +3,7 @@
 use crate::description::load::{Loaded, read_file};
 use crate::diagnostic::Diagnostics;
 use crate::joint;
+use crate::law;
 use crate::model::Model;
 use crate::model::resolve::{self, Kinds, Resolved};
 use crate::model::scene::Scene;
@@ -15,6 +16,7 @@ const KINDS: &Kinds = &Kinds {
     language: LANGUAGE,
     spellings: joint::SPELLINGS,
     words: joint::WORDS,
+    laws: law::LAWS,
 };
 
 /// The language with all kinds of joints.
@@ -22,6 +24,7 @@ pub const LANGUAGE: &crate::description::language::Language =
     &crate::description::language::Language {
         joint_keys: joint::KEYS,
         joint_words: joint::WRITTEN_WORDS,
+        laws: law::KEYS,
     };
 
 /// Reads a model and the files it includes.

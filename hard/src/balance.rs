@@ -13,9 +13,8 @@
 //! divisions: in double-double the residual is correct to 30 digits of its largest term.
 
 use bryant_generator::dynamics::layout::{Layout, Orientation};
-use bryant_generator::model::{
-    Body, ElementId, FieldComponent, ForceKind, Model, Number, Reference,
-};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::{Body, ElementId, FieldComponent, Model, Number, Reference};
 use bryant_runtime::Real;
 
 use crate::bench::Trouble;
@@ -110,7 +109,7 @@ impl Tree {
             });
         }
         for force in &model.forces {
-            match &force.kind {
+            match ForceKind::of(force) {
                 ForceKind::Field(law) => {
                     for ElementId { element, .. } in &law.on {
                         let field = &mut elements[*element].field;

@@ -7,7 +7,8 @@ use super::message::place_in_texts;
 use super::{BuildError, Rustc, Stage, Text};
 use bryant_engine::UserFunctions;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
-use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
 use bryant_generator::target::rust::Apart;
 use bryant_runtime::real::{Base, Form};
 use std::sync::OnceLock;
@@ -128,7 +129,7 @@ fn forces(
 ) -> Vec<Option<Force>> {
     let forces = model.forces.iter().zip(&apart.forces);
     let forces = forces.map(|(force, function)| {
-        let (ForceKind::User(user), Some(index)) = (&force.kind, *function) else {
+        let (ForceKind::User(user), Some(index)) = (ForceKind::of(force), *function) else {
             return None;
         };
         let text = user.function.source.as_ref().map(|source| &source.text);

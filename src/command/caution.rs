@@ -4,9 +4,9 @@ pub mod singular;
 pub mod start;
 
 use crate::scene::mesh::{missing, place};
-use bryant_generator::model::{
-    Active, Dimension, Direction, ForceKind, JointTorque, Model, Scene, Shown,
-};
+use bryant_generator::law::ForceKind;
+use bryant_generator::law::types::{Direction, JointTorque};
+use bryant_generator::model::{Active, Dimension, Model, Scene, Shown};
 use start::Start;
 use std::f64::consts::FRAC_PI_2;
 
@@ -76,10 +76,13 @@ fn middle_angles(model: &Model) -> Vec<String> {
         return Vec::new();
     }
     let joints = || {
-        model.forces.iter().filter_map(|force| match &force.kind {
-            ForceKind::Joint(law) => Some((force, law)),
-            _ => None,
-        })
+        model
+            .forces
+            .iter()
+            .filter_map(|force| match ForceKind::of(force) {
+                ForceKind::Joint(law) => Some((force, law)),
+                _ => None,
+            })
     };
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     let none = JointTorque::default();
@@ -121,7 +124,7 @@ fn bushings(model: &Model) -> Vec<String> {
     let none = Direction::default();
     let mut all = Vec::new();
     for force in &model.forces {
-        let ForceKind::Bushing(bushing) = &force.kind else {
+        let ForceKind::Bushing(bushing) = ForceKind::of(force) else {
             continue;
         };
         let [x, y, z] = &bushing.about;

@@ -9,10 +9,9 @@ use crate::units::{self, TIME, short};
 use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
+use bryant_generator::law::ForceKind;
 use bryant_generator::model::units::UnitSystem;
-use bryant_generator::model::{
-    Coordinates, Dimension, ForceKind, Model, Parameter, Reference, Scene, System,
-};
+use bryant_generator::model::{Coordinates, Dimension, Model, Parameter, Reference, Scene, System};
 use bryant_generator::program::{self, Options};
 use bryant_generator::target::rust;
 use bryant_picture::text::typeset;
@@ -110,7 +109,7 @@ fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
 fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
     rust::skeleton(model, force).ok_or_else(|| {
         let all = model.forces.iter();
-        let users = all.filter(|f| matches!(f.kind, ForceKind::User(_)));
+        let users = all.filter(|f| matches!(ForceKind::of(&f), ForceKind::User(_)));
         let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
         let help = match (nearest(force, &names), names.is_empty()) {
             (Some(near), _) => format!("did you mean \"{near}\"?"),
@@ -236,7 +235,7 @@ fn as_text(model: &Model, costs: &Costs) -> String {
         }
     }
     for force in &model.forces {
-        let _ = writeln!(text, "  {:11} {}", force.kind.key(), force.name);
+        let _ = writeln!(text, "  {:11} {}", force.law.key(), force.name);
     }
     if model.forces.is_empty() {
         text.push_str("  forces      none\n");
@@ -365,7 +364,7 @@ fn as_json(scene: &Scene, costs: &Costs) -> Value {
     let forces: Vec<Value> = model
         .forces
         .iter()
-        .map(|force| json!({ "kind": force.kind.key(), "name": force.name }))
+        .map(|force| json!({ "kind": force.law.key(), "name": force.name }))
         .collect();
     let switches: Vec<&str> = model.switches.iter().map(|s| s.name.as_str()).collect();
     let parameters: Vec<Value> = model

@@ -4,8 +4,9 @@ use super::Error;
 use super::terminal::Terminal;
 use crate::bundled::{self, Bundled};
 use bryant_generator::description::load::{beside, read_file, shown};
+use bryant_generator::law::ForceKind;
 use bryant_generator::model::units::UnitSystem;
-use bryant_generator::model::{ForceKind, Model, Scene};
+use bryant_generator::model::{Model, Scene};
 use bryant_generator::model_text::read_model;
 use std::path::{Path, PathBuf};
 
@@ -70,7 +71,7 @@ impl Found {
             .first()
             .map_or(String::new(), |path| shown(path));
         for force in &self.model.forces {
-            let ForceKind::User(user) = &force.kind else {
+            let ForceKind::User(user) = ForceKind::of(force) else {
                 continue;
             };
             let Some(source) = &user.function.source else {

@@ -2,6 +2,7 @@
 
 use super::{Arrangement, Instant, View, draw};
 use crate::scene::Scene;
+use bryant_generator::law::types::{Against, Belt, BeltLength, Contact};
 use bryant_generator::model::*;
 
 fn vector(x: f64, y: f64, z: f64) -> [Number; 3] {
@@ -49,7 +50,7 @@ fn curve() -> ScaledCurve {
 fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f64; 2]) -> Force {
     Force {
         name: "contact".into(),
-        kind: ForceKind::Contact(Box::new(Contact {
+        law: Box::new(Contact {
             ellipsoid,
             semi_axes: vector(semi[0], semi[0], semi[1]),
             axes: vector(0.0, 0.0, 0.0),
@@ -66,7 +67,7 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
             damping_depth: None,
             friction: None,
             bristle: None,
-        })),
+        }),
         active: Active::default(),
     }
 }
@@ -74,7 +75,7 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
 fn belt(from: Attachment, to: Attachment) -> Force {
     Force {
         name: "belt".into(),
-        kind: ForceKind::Belt(Box::new(Belt {
+        law: Box::new(Belt {
             from,
             to,
             rings: Vec::new(),
@@ -87,7 +88,7 @@ fn belt(from: Attachment, to: Attachment) -> Force {
             film_spool: None,
             pretensioner: None,
             limiter: None,
-        })),
+        }),
         active: Active::default(),
     }
 }
@@ -299,9 +300,8 @@ fn every_picture_of_ours_can_be_had_as_png() {
 fn a_plane_is_drawn_as_far_as_it_extends() {
     let widths = |extent: Option<f64>| {
         let mut model = child();
-        let ForceKind::Contact(contact) = &mut model.forces[0].kind else {
-            panic!("the first is a contact");
-        };
+        let contact = model.forces[0].law.get_mut::<Contact>();
+        let contact = contact.expect("the first is a contact");
         let Against::Plane(plane) = &mut contact.against else {
             panic!("of a plane");
         };

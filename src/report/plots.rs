@@ -84,7 +84,7 @@ pub fn laws(quantity: &Quantity) -> Vec<usize> {
 
 /// The bodies that a force acts on or is fixed to, but for the frame.
 pub fn of_force(model: &Model, force: usize) -> Vec<Body> {
-    let mut kind = model.forces[force].kind.clone();
+    let mut kind = model.forces[force].law.clone();
     let mut bodies: Vec<Body> = kind.bodies_mut().into_iter().map(|body| *body).collect();
     bodies.retain(|body| *body != Body::Frame);
     bodies.dedup();
@@ -191,7 +191,7 @@ fn place(model: &Model, quantity: &Quantity, unit: &str) -> Place {
         | Quantity::OfForce { force, .. } => {
             let force = &model.forces[*force];
             (
-                format!("{} {}", force.kind.key(), measure(unit)),
+                format!("{} {}", force.law.key(), measure(unit)),
                 force.name.clone(),
             )
         }

@@ -3,8 +3,10 @@
 use super::planes::Planes;
 use super::{Bodies, Ellipsoid, Kind, Line, Place, Push, Scene, from_to, length, route, way};
 use crate::pose::{Numbers, Vec3, bryant_rotation, dot};
-use bryant_generator::law::{self, Look, Round};
-use bryant_generator::model::{Attachment, BeltLength, Number, Quantity, Shown};
+use bryant_generator::law::types::{Belt, BeltLength};
+use bryant_generator::model::Round;
+use bryant_generator::model::look::{self, Look};
+use bryant_generator::model::{Attachment, Number, Quantity, Shown};
 
 /// The columns that [`with_forces`] adds, read one after the other: each has a value for each time.
 struct Columns<'a>(std::slice::Iter<'a, Vec<f64>>);
@@ -36,7 +38,7 @@ impl Builder<'_> {
         let mut columns = Columns(forces.iter());
         let mut planes = Planes::default();
         for (index, force) in model.forces.iter().enumerate() {
-            for look in force.kind.looks() {
+            for look in force.law.looks() {
                 self.look((index, &force.name), look, &mut columns, &mut planes);
             }
         }
@@ -125,7 +127,7 @@ impl Builder<'_> {
     fn line(
         &mut self,
         name: &str,
-        kind: law::Line<'_>,
+        kind: look::Line<'_>,
         points: &[&Attachment],
         forces: &[impl Fn(usize) -> Vec3],
     ) {
@@ -141,16 +143,17 @@ impl Builder<'_> {
         });
         let pulls = pulls.collect();
         let (kind, length) = match kind {
-            law::Line::Belt(belt) if !scene.times.is_empty() => {
+            look::Line::Belt(belt) if !scene.times.is_empty() => {
                 let points: Vec<Vec3> = (0..points.len()).map(|i| at(0, i)).collect();
+                let belt = belt.get::<Belt>();
                 (
                     Kind::Belt,
-                    Some(untensioned(self.numbers, belt, way(&points))),
+                    belt.map(|belt| untensioned(self.numbers, belt, way(&points))),
                 )
             }
-            law::Line::Belt(_) => (Kind::Belt, None),
-            law::Line::Spring => (Kind::Spring, None),
-            law::Line::Bushing => (Kind::Bushing, None),
+            look::Line::Belt(_) => (Kind::Belt, None),
+            look::Line::Spring => (Kind::Spring, None),
+            look::Line::Bushing => (Kind::Bushing, None),
         };
         scene.lines.push(Line {
             name: name.to_owned(),
@@ -207,7 +210,7 @@ impl Builder<'_> {
 }
 
 /// Untensioned length of a belt whose points are `initial` apart at the start \[m\].
-fn untensioned(numbers: Numbers<'_>, belt: &bryant_generator::model::Belt, initial: f64) -> f64 {
+fn untensioned(numbers: Numbers<'_>, belt: &Belt, initial: f64) -> f64 {
     let value = |number: &Number| numbers.value(number);
     match &belt.length {
         BeltLength::Given(length) => value(length),

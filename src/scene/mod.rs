@@ -1,5 +1,5 @@
 //! A motion as it is seen: bodies with their shapes, and what acts between them, at every time. Pictures, the page of a report and animations are made of this.
-//! What a law looks like is said by the law ([`Outputs::looks`](bryant_generator::law::Outputs::looks)).
+//! What a law looks like is said by the law ([`Outputs::looks`](bryant_generator::model::law::Outputs::looks)).
 
 mod bodies;
 mod bones;
@@ -11,7 +11,8 @@ mod route;
 
 use crate::picture::Instant;
 use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, dot};
-use bryant_generator::law::{self, Look};
+use bryant_generator::law::types::Belt;
+use bryant_generator::model::look::{self, Look};
 use bryant_generator::model::{Active, Dimension, Force, Model, Output, Quantity, Shown};
 use build::Builder;
 
@@ -139,7 +140,7 @@ pub struct Push {
 pub fn with_forces(model: &Model) -> Model {
     let mut model = model.clone();
     for (index, force) in model.forces.iter().enumerate() {
-        let asked = force.kind.looks().into_iter();
+        let asked = force.law.looks().into_iter();
         for quantity in asked.flat_map(|look| look.asks(index)) {
             let unit = match quantity {
                 Quantity::OfForce { .. } => "m^3",
@@ -161,11 +162,14 @@ pub fn with_forces(model: &Model) -> Model {
 /// Whether a scene without forces does not show how full bags are, or which belts are taut: those whose untensioned length changes, or that act at times.
 pub fn needs_forces(model: &Model) -> bool {
     let changes = |force: &Force| {
-        force.kind.looks().into_iter().any(|look| match look {
+        force.law.looks().into_iter().any(|look| match look {
             Look::Bag(..) => true,
-            Look::Line(law::Line::Belt(belt), _) => {
-                let pays_out = belt.retractor.is_some() || belt.limiter.is_some();
-                pays_out || belt.pretensioner.is_some() || force.active != Active::default()
+            Look::Line(look::Line::Belt(law), _) => {
+                let pays_out = |belt: &Belt| {
+                    let parts = (&belt.retractor, &belt.limiter, &belt.pretensioner);
+                    parts.0.is_some() || parts.1.is_some() || parts.2.is_some()
+                };
+                law.get().is_none_or(pays_out) || force.active != Active::default()
             }
             _ => false,
         })

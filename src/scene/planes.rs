@@ -2,8 +2,8 @@
 
 use super::{Bodies, Plane, Scene, from_to, length};
 use crate::pose::{Numbers, Vec3, cross, dot};
-use bryant_generator::law::Round;
 use bryant_generator::model;
+use bryant_generator::model::Round;
 
 /// A plane whose piece may still grow.
 #[derive(PartialEq)]

@@ -2,11 +2,11 @@
 //! does not give.
 
 use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_generator::law::ForceKind;
+use bryant_generator::law::types::Field;
 use bryant_generator::model::scene::Scene;
 use bryant_generator::model::units::{Unit, UnitSystem};
-use bryant_generator::model::{
-    Body, Dimension, Field, FieldComponent, ForceKind, Model, PointQuantity, Quantity,
-};
+use bryant_generator::model::{Body, Dimension, FieldComponent, Model, PointQuantity, Quantity};
 use bryant_runtime::response::STANDARD_GRAVITY;
 use bryant_runtime::response::filter::Standard;
 use serde::{Deserialize, Serialize};
@@ -255,10 +255,13 @@ fn unread(model: &Model, quantity: &Quantity) -> Option<String> {
     }
     let Body::Element(id) = body else { return None };
     let defaults: Vec<f64> = model.parameters.iter().map(|one| one.default).collect();
-    let field = model.forces.iter().find(|force| match &force.kind {
-        ForceKind::Field(field) => field.on.contains(id) && !is_gravity(field, &defaults),
-        _ => false,
-    })?;
+    let field = model
+        .forces
+        .iter()
+        .find(|force| match ForceKind::of(force) {
+            ForceKind::Field(field) => field.on.contains(id) && !is_gravity(field, &defaults),
+            _ => false,
+        })?;
     Some(format!(
         "it is an `acceleration`, and the field {} acts there, which no instrument feels",
         quoted(&field.name)

@@ -1,8 +1,9 @@
 //! Reference trees and states, computed independently of any engine (see `reference/README.md`), as models.
 
+use bryant_generator::law::types::Field;
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, Field, FieldComponent, Force, ForceKind,
-    Joint, Model, Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, Joint, Model,
+    Number, Reference, Run, System,
 };
 use serde_json::Value;
 
@@ -113,7 +114,7 @@ pub fn load(name: &str, coordinates: Coordinates) -> ReferenceTree {
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::from(Field {
+            law: Box::new(Field {
                 on,
                 acceleration: in_space(gravity).map(FieldComponent::Constant),
             }),

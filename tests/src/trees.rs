@@ -3,9 +3,10 @@
 use crate::reference::element;
 use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::expression::Function;
+use bryant_generator::law::types::Field;
 use bryant_generator::model::{
-    Active, Coordinates, Dimension, Element, ElementId, Field, FieldComponent, Force, ForceKind,
-    Joint, Model, Number, Reference, Run, System,
+    Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, Joint, Model,
+    Number, Reference, Run, System,
 };
 pub use bryant_hard::random::Random;
 
@@ -119,7 +120,7 @@ fn one_system(
         }],
         forces: vec![Force {
             name: "gravity".into(),
-            kind: ForceKind::from(Field {
+            law: Box::new(Field {
                 on,
                 acceleration: [0.0, 0.0, -9.81].map(|a| FieldComponent::Constant(a.into())),
             }),

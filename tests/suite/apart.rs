@@ -7,7 +7,8 @@ use bryant::build_on_demand::{RustcModel, Text, Unit, UserForces};
 use bryant_engine::{Engine, UserFunctions};
 use bryant_generated::{elbow, skydiver};
 use bryant_generator::Config;
-use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
 use bryant_runtime::real::Form;
 use bryant_runtime::real::lanes::{OfAnyWidth, Several, with_width, with_width_of_singles};
 use bryant_runtime::{
@@ -146,7 +147,7 @@ fn read(path: &Path) -> (Model, Vec<(String, String)>) {
     let model = bryant_generator::read_scene(path).expect("a model").model;
     let mut sources = Vec::new();
     for force in &model.forces {
-        if let ForceKind::User(user) = &force.kind
+        if let ForceKind::User(user) = ForceKind::of(force)
             && let Some(source) = &user.function.source
         {
             sources.push((source.name.clone(), source.text.clone()));
@@ -167,11 +168,8 @@ fn forces(path: &Path) -> (Model, Arc<UserForces>) {
 
 /// The index of the only user force.
 fn only(model: &Model) -> usize {
-    let user = |kind: &ForceKind| matches!(kind, ForceKind::User(_));
-    let mut forces = model.forces.iter();
-    forces
-        .position(|force| user(&force.kind))
-        .expect("a user force")
+    let user = |force| matches!(ForceKind::of(force), ForceKind::User(_));
+    model.forces.iter().position(user).expect("a user force")
 }
 
 /// Pseudo-random numbers between 0.1 and 1.1.

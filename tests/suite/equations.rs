@@ -6,10 +6,11 @@ use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::law::types::Load;
 use bryant_generator::model::{
     Active, Attachment, Body, Component, Coordinates, Dimension, Element, ElementId,
-    FieldComponent, Force, ForceKind, Load, Model, Number, Output, Parameter, PointQuantity,
-    Projection, Quantity, Reference, RotationQuantity,
+    FieldComponent, Force, Model, Number, Output, Parameter, PointQuantity, Projection, Quantity,
+    Reference, RotationQuantity,
 };
 use bryant_tests::reference::{ReferenceTree, load};
 use bryant_tests::trees::{
@@ -186,14 +187,14 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
                 }),
                 at: zero(),
             };
-            let kind = ForceKind::Load(Box::new(Load {
+            let law = Box::new(Load {
                 on,
                 force: zero().map(FieldComponent::Constant),
                 moment: moment.map(FieldComponent::Constant),
-            }));
+            });
             model.forces.push(Force {
                 name: format!("moment {k} {}", model.forces.len()),
-                kind,
+                law,
                 active: Active::default(),
             });
         };
@@ -469,7 +470,7 @@ fn push_on(element: usize) -> Force {
     Force {
         active: Active::default(),
         name: "push".into(),
-        kind: ForceKind::Load(Box::new(load)),
+        law: Box::new(load),
     }
 }
 

@@ -5,7 +5,8 @@ use bryant::accuracy::target::{self, Difference};
 use bryant::build_on_demand::UserForces;
 use bryant::equations::{self, Engine};
 use bryant::{bundled, simulation};
-use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 use std::sync::Arc;
@@ -29,13 +30,16 @@ fn random(seed: &mut u64) -> f64 {
 
 /// The equations of a bundled model, with the functions of its user forces compiled.
 pub fn engine_of(model: &Model) -> Engine {
-    let sources = model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::User(user) => {
-            let source = user.function.source.as_ref()?;
-            Some((source.name.clone(), source.text.clone()))
-        }
-        _ => None,
-    });
+    let sources = model
+        .forces
+        .iter()
+        .filter_map(|force| match ForceKind::of(force) {
+            ForceKind::User(user) => {
+                let source = user.function.source.as_ref()?;
+                Some((source.name.clone(), source.text.clone()))
+            }
+            _ => None,
+        });
     let users = UserForces::of(model, sources.collect(), &mut |_| {}).expect("they compile");
     equations::with_users(model, users.map(Arc::new)).expect("nothing is missing")
 }

@@ -2,7 +2,8 @@
 
 use bryant::bundled::find;
 use bryant::{equations, simulation};
-use bryant_generator::model::{Curve, ForceKind, Model, Quantity};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::{Curve, Model, Quantity};
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 use bryant_tests::runs::run;
@@ -75,8 +76,8 @@ fn field_and_way(curve: &Curve, t: f64) -> [f64; 2] {
 fn floating() -> Model {
     let bundled = find("child-seat").expect("a bundled model");
     let mut model = bryant::bundled::model(bundled).expect("the model reads");
-    let holds = |kind: &ForceKind| matches!(kind, ForceKind::Belt(_) | ForceKind::Contact(_));
-    model.forces.retain(|force| !holds(&force.kind));
+    let holds = |kind: ForceKind| matches!(kind, ForceKind::Belt(_) | ForceKind::Contact(_));
+    model.forces.retain(|force| !holds(ForceKind::of(force)));
     model
         .outputs
         .retain(|output| matches!(output.quantity, Quantity::Point { .. }));

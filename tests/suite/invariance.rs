@@ -6,9 +6,11 @@
 
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
+use bryant_generator::law::types::{
+    Against, Belt, Bushing, Contact, Field, Freedom, Joint, Load, Spring,
+};
 use bryant_generator::model::{
-    Against, Attachment, Body, Dimension, FieldComponent, ForceKind, Model, Number, Reference,
-    ScaledCurve,
+    Attachment, Body, Dimension, FieldComponent, Model, Number, Reference, ScaledCurve,
 };
 use bryant_tests::models::MODELS;
 use bryant_tests::rounding::Rounded;
@@ -77,51 +79,48 @@ fn elsewhere(model: &Model) -> Option<Model> {
         }
     }
     for force in &mut model.forces {
-        match &mut force.kind {
-            ForceKind::Joint(joint) => {
-                let law = &joint.about[1];
-                if joint.child.element == 0 && (law.elastic.is_some() || law.stop.is_some()) {
-                    return None;
+        let law = &mut force.law;
+        if let Some(joint) = law.get::<Joint>() {
+            let law = &joint.about[1];
+            if joint.child.element == 0 && (law.elastic.is_some() || law.stop.is_some()) {
+                return None;
+            }
+        } else if let Some(field) = law.get_mut::<Field>() {
+            turn_components(&mut field.acceleration);
+        } else if let Some(load) = law.get_mut::<Load>() {
+            turn_components(&mut load.force);
+        } else if let Some(contact) = law.get_mut::<Contact>() {
+            move_attachment(&mut contact.ellipsoid);
+            if contact.ellipsoid.on == Body::Frame {
+                quarter(&mut contact.axes[1]);
+            }
+            match &mut contact.against {
+                Against::Plane(plane) if plane.at.on == Body::Frame => {
+                    shift(&mut plane.at.at);
+                    turn(&mut plane.normal);
+                    turn(&mut plane.tangent);
+                }
+                Against::Ellipsoid(other) if other.center.on == Body::Frame => {
+                    shift(&mut other.center.at);
+                    quarter(&mut other.axes[1]);
+                }
+                Against::Plane(_) | Against::Ellipsoid(_) => {}
+            }
+        } else if let Some(belt) = law.get_mut::<Belt>() {
+            belt.points_mut().for_each(move_attachment);
+        } else if let Some(spring) = law.get_mut::<Spring>() {
+            move_attachment(&mut spring.from);
+            move_attachment(&mut spring.to);
+        } else if let Some(bushing) = law.get_mut::<Bushing>() {
+            for mount in [&mut bushing.from, &mut bushing.to] {
+                move_attachment(&mut mount.on);
+                if mount.on.on == Body::Frame {
+                    quarter(&mut mount.axes[1]);
                 }
             }
-            // relative to what carries it, which turns too
-            ForceKind::Freedom(_) => {}
-            ForceKind::Field(field) => turn_components(&mut field.acceleration),
-            ForceKind::Load(load) => turn_components(&mut load.force),
-            ForceKind::Contact(contact) => {
-                move_attachment(&mut contact.ellipsoid);
-                if contact.ellipsoid.on == Body::Frame {
-                    quarter(&mut contact.axes[1]);
-                }
-                match &mut contact.against {
-                    Against::Plane(plane) if plane.at.on == Body::Frame => {
-                        shift(&mut plane.at.at);
-                        turn(&mut plane.normal);
-                        turn(&mut plane.tangent);
-                    }
-                    Against::Ellipsoid(other) if other.center.on == Body::Frame => {
-                        shift(&mut other.center.at);
-                        quarter(&mut other.axes[1]);
-                    }
-                    Against::Plane(_) | Against::Ellipsoid(_) => {}
-                }
-            }
-            ForceKind::Belt(belt) => {
-                belt.points_mut().for_each(move_attachment);
-            }
-            ForceKind::Spring(spring) => {
-                move_attachment(&mut spring.from);
-                move_attachment(&mut spring.to);
-            }
-            ForceKind::Bushing(bushing) => {
-                for mount in [&mut bushing.from, &mut bushing.to] {
-                    move_attachment(&mut mount.on);
-                    if mount.on.on == Body::Frame {
-                        quarter(&mut mount.axes[1]);
-                    }
-                }
-            }
-            ForceKind::Airbag(_) | ForceKind::User(_) => return None,
+        } else if law.get::<Freedom>().is_none() {
+            // a freedom is relative to what carries it, which turns too; of the others it is not known
+            return None;
         }
     }
     // the quantity of a switch may be a component

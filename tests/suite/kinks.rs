@@ -6,7 +6,8 @@
 //! than its neighbours cannot come from the smooth part on a grid that resolves it, so it is a kink.
 
 use crate::share::share;
-use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
 use bryant_generator::read;
 use bryant_runtime::program::{Entry, Job};
 use bryant_tests::models::MODELS;
@@ -227,5 +228,5 @@ fn no_kink_is_forgotten() {
 /// Whether user functions act, whose kinks are not known.
 fn has_users(model: &Model) -> bool {
     let mut forces = model.forces.iter();
-    forces.any(|force| matches!(force.kind, ForceKind::User(_)))
+    forces.any(|force| matches!(ForceKind::of(force), ForceKind::User(_)))
 }

@@ -6,9 +6,9 @@ use bryant_generator::dynamics::{derive, derive_in_first_chart};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::count::{Count, Table};
 use bryant_generator::expression::print::{Names, text};
-use bryant_generator::model::{
-    BeltLength, FieldComponent, Force, ForceKind, JointTorque, Model, Number, Reference,
-};
+use bryant_generator::law::ForceKind;
+use bryant_generator::law::types::{BeltLength, JointTorque};
+use bryant_generator::model::{FieldComponent, Force, Model, Number, Reference};
 use bryant_generator::read;
 use bryant_generator::read_str;
 use std::path::Path;
@@ -228,7 +228,7 @@ fn functions(source: &str) -> impl Iterator<Item = (&str, usize)> {
 }
 
 fn title(force: &Force) -> String {
-    format!("{} {}", force.kind.key(), force.name)
+    format!("{} {}", force.law.key(), force.name)
 }
 
 /// The optional terms of a force, and whether it has them.
@@ -238,7 +238,7 @@ fn options(force: &Force) -> Vec<(&'static str, bool)> {
         FieldComponent::Curve(_) => true,
     };
     let damps = |damping: &Option<Number>| damping.as_ref().is_some_and(|d| !d.is_zero());
-    match &force.kind {
+    match ForceKind::of(force) {
         ForceKind::Joint(joint) => {
             let any = |has: &dyn Fn(&JointTorque) -> bool| joint.about.iter().any(has);
             vec![

@@ -6,7 +6,8 @@
 //! Where the variable `ROBOTS` names a folder, its robots are built, too: those of `robots.py`.
 
 use bryant_generator::Config;
-use bryant_generator::model::{Dimension, FieldComponent, ForceKind, Model, Number, Reference};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::{Dimension, FieldComponent, Model, Number, Reference};
 use bryant_generator::urdf::{Base, Options, import};
 use std::path::Path;
 

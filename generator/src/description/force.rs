@@ -1,14 +1,49 @@
 //! Forces as written. The key that names a force says which [law](crate::law) it is.
 
+use super::expand::{Expander, Node};
 use super::place::At;
 use super::quantity::Quantity;
-use super::shape::{Misfit, Problems, Shape, record};
+use super::shape::{Key, Misfit, Problems, Shape, record};
 use super::tree::Kind;
 use crate::diagnostic::{nearest, quoted};
-use crate::law::LAWS;
 use serde_yaml::Value;
 
-pub use crate::law::Written as Force;
+/// A law as the language knows it.
+#[derive(Debug)]
+pub struct LawKeys {
+    /// The key that names a force of this law.
+    pub key: &'static str,
+    /// Name of the law with its article.
+    pub title: &'static str,
+    /// Reports values that do not have the shape of this law.
+    pub shape: fn(At<'_>, &Problems),
+    /// The records of the law's keys, in the order of the reference page.
+    pub records: fn() -> Vec<(&'static str, &'static [Key])>,
+    /// Turns a copy of a force into its mirror image, with its name. `None`, with a report, if the force has no mirror
+    /// image.
+    pub image: fn(&mut Expander<'_>, &Node, &mut Node) -> Option<()>,
+    /// Advice for two forces with the same name, in place of renaming one of them.
+    pub twice: Option<&'static str>,
+    /// True if the law has outputs.
+    pub is_observable: bool,
+    /// True if outputs name a part of the law after its name: `of: user drag/head`.
+    pub has_ports: bool,
+    /// The key of a Rust file that belongs to a force.
+    pub source: Option<&'static str>,
+}
+
+impl LawKeys {
+    /// Name of the law without its article: "joint force", "spring".
+    pub fn called(&self) -> &'static str {
+        self.title
+            .split_once(' ')
+            .map_or(self.title, |(_, called)| called)
+    }
+}
+
+/// A force as written. It has the shape of its law, which reads the value when the force is resolved.
+#[derive(Clone, Debug)]
+pub struct Force(pub Value);
 
 record! {
     /// A point on a body.
@@ -20,13 +55,10 @@ record! {
     }
 }
 
-/// The keys that say which force it is.
-pub fn kinds() -> impl Iterator<Item = &'static str> + Clone {
-    LAWS.iter().map(|law| law.key)
-}
-
 impl Shape for Force {
     fn check(at: At<'_>, problems: &Problems) {
+        let laws = problems.language.laws;
+        let kinds = || laws.iter().map(|law| law.key);
         let help = || {
             let keys: Vec<String> = kinds().map(|key| format!("`{key}:`")).collect();
             format!("a force begins with one of {}", keys.join(", "))
@@ -39,8 +71,8 @@ impl Shape for Force {
             return;
         };
         let written = |key: &str| entries.iter().any(|e| e.key == key);
-        let mut laws = LAWS.iter().filter(|law| written(law.key));
-        match (laws.next(), laws.next()) {
+        let mut named = laws.iter().filter(|law| written(law.key));
+        match (named.next(), named.next()) {
             (Some(law), None) => (law.shape)(at, problems),
             (None, _) => {
                 let near = entries
@@ -63,8 +95,6 @@ impl Shape for Force {
     }
 
     fn read(value: &Value) -> Result<Self, Misfit> {
-        let law = LAWS.iter().find(|law| value.get(law.key).is_some());
-        let law = law.ok_or("the force has no kind")?;
-        (law.read)(value)
+        Ok(Force(value.clone()))
     }
 }

@@ -558,11 +558,15 @@ impl Reader<'_> {
         let before = self.problems.kept();
         self.tables(source.at());
         for (index, force) in contents.forces.iter().flatten().enumerate() {
-            if let Force::User(user) = force
-                && let Some(file) = user.source.as_deref().filter(|_| self.with_sources)
+            let text = |key: &str| force.0.get(key).and_then(Value::as_str);
+            let mut laws = self.problems.language.laws.iter();
+            let law = laws.find_map(|law| Some((law, text(law.key)?)));
+            if let Some((law, name)) = law
+                && let Some(key) = law.source
+                && let Some(file) = text(key).filter(|_| self.with_sources)
             {
-                let at = source.at().key("forces").item(index).key("source");
-                self.user_source(at, file, &user.user);
+                let at = source.at().key("forces").item(index).key(key);
+                self.user_source(at, file, name);
             }
         }
         for problem in self.problems.since(before) {

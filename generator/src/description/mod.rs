@@ -45,7 +45,6 @@ pub mod what;
 
 pub use bryant_table::unit;
 
-use crate::law::LAWS;
 use language::Language;
 use shape::{Key, Record};
 
@@ -79,7 +78,7 @@ pub fn vocabulary(language: &Language) -> Vec<(&'static str, Vec<Key>)> {
         joint::keys(language),
         of::<joint::Follows>(),
     ];
-    let laws = LAWS.iter().flat_map(|law| (law.records)());
+    let laws = language.laws.iter().flat_map(|law| (law.records)());
     all.extend(laws.map(|(title, keys)| (title, keys.to_vec())));
     all.extend([
         of::<switch::Switch>(),

@@ -8,6 +8,7 @@ use super::kinematics::Motion;
 use super::numbers::number;
 use crate::equations::Condition;
 use crate::expression::{Expr, Graph};
+use crate::law::ForceKind;
 use crate::model::{Model, Number, Rule};
 
 /// The conditions that parameters decide, each once; `start` is the motion at the start of a run.
@@ -36,7 +37,11 @@ pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condit
         }
     }
     for force in &model.forces {
-        if let Some((name, value)) = force.kind.condition(graph, start, &force.name) {
+        if let Some((name, value)) =
+            ForceKind::of(force)
+                .equations()
+                .condition(graph, start, &force.name)
+        {
             add(name, value, Rule::NotNegative);
         }
     }

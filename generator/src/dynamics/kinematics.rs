@@ -14,9 +14,8 @@ use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
 pub use crate::joint::prescribed::reference_acceleration;
 use crate::joint::{ball, free, prescribed, twist};
-use crate::model::{
-    Attachment, Body, Element, ElementId, Freedom, Joint, Model, Number, Reference,
-};
+use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference};
+use crate::model::{Freedom, Joint};
 
 /// The state q and v, as expressions.
 pub struct State<'g> {

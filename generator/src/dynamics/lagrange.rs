@@ -16,9 +16,8 @@ use super::{time, translation};
 use crate::expression::differentiate::{NotDifferentiable, differentiate_along, jacobian};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
-use crate::model::{
-    Element, ElementId, FieldComponent, Freedom, Joint, Model, Reference, System, Vehicle,
-};
+use crate::model::{Element, ElementId, FieldComponent, Model, Reference, System, Vehicle};
+use crate::model::{Freedom, Joint};
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
 pub struct Lagrange {

@@ -12,7 +12,8 @@ pub use crate::joint::ball::Orientation;
 use crate::joint::equations::{self, Start, Variables};
 use crate::joint::{ball, free};
 use crate::model::joint::directions;
-use crate::model::{Dimension, ElementId, Freedom, Joint, Model, Reference};
+use crate::model::{Dimension, ElementId, Model, Reference};
+use crate::model::{Freedom, Joint};
 use std::ops::Range;
 
 /// The positions of all coordinates and velocities in q and v.

@@ -130,7 +130,8 @@ impl<'g> Scene<'g, '_> {
                 let on_first = on_first.unwrap_or_else(|| Vec3::zero(self.graph));
                 self.of(*projection, if *on_second { -on_first } else { on_first })
             }
-            Quantity::OfForce { force, what } => match self.applied.measures[*force].value(what) {
+            Quantity::OfForce { force, what } => match self.applied.measures[*force].value(&**what)
+            {
                 Some(Value::Scalar(value)) => value,
                 Some(Value::Along(projection, vector)) => self.of(projection, vector),
                 None => zero,

@@ -11,9 +11,10 @@
 //! joints, and Bryant angles if the text asks for them. Outputs are left out.
 
 use super::planar;
-use crate::law::field::Field;
+
+use crate::law::ForceKind;
 use crate::model::part::{Field as Of, Fresh, Part};
-use crate::model::{Dimension, Force, ForceKind, Given, Model, Reference, Translation};
+use crate::model::{Dimension, Force, Given, Model, Reference, Translation};
 
 /// The scene with nothing left out. `written` is the model with everything that its text mentions.
 pub fn general(written: &Model) -> Model {
@@ -53,7 +54,7 @@ pub fn general(written: &Model) -> Model {
         }
     }
     for force in &mut model.forces {
-        for field in force.kind.fields(Dimension::Space) {
+        for field in force.law.fields(Dimension::Space) {
             if let Of::Term(term, part) = field
                 && !term.as_written
             {
@@ -69,12 +70,12 @@ pub fn general(written: &Model) -> Model {
 
 /// Splits a field into one field for each element; returns any other force unchanged.
 fn by_element(force: Force) -> Vec<Force> {
-    match &force.kind {
+    match ForceKind::of(&force) {
         ForceKind::Field(field) => {
             let each = field.on.iter().enumerate().map(|(index, &id)| Force {
                 name: format!("{}-{}", force.name, index + 1),
                 active: force.active,
-                kind: ForceKind::from(Field {
+                law: Box::new(crate::law::types::Field {
                     on: vec![id],
                     acceleration: field.acceleration.clone(),
                 }),

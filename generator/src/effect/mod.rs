@@ -22,8 +22,9 @@ pub use scene::of_scene;
 pub use summary::summary;
 pub use without::{Variant, without};
 
+use crate::law::types::Field;
 use crate::model::scene::Place;
-use crate::model::{Dimension, ElementId, ForceKind, Model, Reference};
+use crate::model::{Dimension, ElementId, Model, Reference};
 use structure::{Felt, Gyroscopic, Structure};
 
 /// An effect that is in or out.
@@ -274,7 +275,7 @@ fn inertia(model: &Model, structure: &Structure, entries: &mut Vec<Entry>) {
 
 /// The effects of a force: the whole force if more than one term is in, its terms, and how a field enters.
 fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Vec<Entry>) {
-    let kind = &model.forces[force].kind;
+    let kind = &model.forces[force].law;
     let terms = kind.terms(model.dimension);
     let count = terms.iter().filter(|(_, is_in)| *is_in).count();
     if count > 1 {
@@ -294,7 +295,7 @@ fn of_force(model: &Model, structure: &Structure, force: usize, entries: &mut Ve
             Entry::absent(model, effect)
         });
     }
-    if let ForceKind::Field(_) = kind {
+    if kind.get::<Field>().is_some() {
         for (system, felt) in structure.felt[force].iter().enumerate() {
             let effect = Effect::FieldByElement { force, system };
             match felt {

@@ -25,7 +25,7 @@ impl Effect {
             Effect::Armature(_) => "inertia of rotors on its joint".to_owned(),
             Effect::Coupling(_) => "coupling of its joint".to_owned(),
             Effect::Term { force, term } => {
-                let terms = model.forces[force].kind.terms(model.dimension);
+                let terms = model.forces[force].law.terms(model.dimension);
                 terms[term].0.name.clone()
             }
             Effect::FieldByElement { system, .. } => {
@@ -53,7 +53,7 @@ impl Effect {
             | Effect::Term { force, .. }
             | Effect::FieldByElement { force, .. } => {
                 let force = &model.forces[force];
-                format!("{} {}", force.kind.key(), force.name)
+                format!("{} {}", force.law.key(), force.name)
             }
             Effect::Parameter(index) => format!("parameter {}", model.parameters[index].name),
             Effect::Output(index) => format!("output {}", model.outputs[index].name),
@@ -64,7 +64,7 @@ impl Effect {
     pub fn keys(self, model: &Model) -> Vec<String> {
         let key = match self {
             Effect::Term { force, term } => {
-                let mut terms = model.forces[force].kind.terms(model.dimension);
+                let mut terms = model.forces[force].law.terms(model.dimension);
                 let mut keys = terms.swap_remove(term).0.keys;
                 keys.push(String::new());
                 return keys;

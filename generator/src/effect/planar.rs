@@ -8,7 +8,7 @@ use crate::model::{
 /// The planar part of a spatial model: without y and without rotations about x and z. `None` if an element could then turn
 /// without inertia.
 pub fn flattened(model: &Model) -> Option<Model> {
-    let in_plane = |force: &Force| force.kind.exists_in_plane();
+    let in_plane = |force: &Force| force.law.exists_in_plane();
     if !model.systems.iter().all(System::has_balls_alone) || !model.forces.iter().all(in_plane) {
         return None;
     }
@@ -50,7 +50,7 @@ pub fn flattened(model: &Model) -> Option<Model> {
     }
     let mut keep = Vec::new();
     for force in &mut model.forces {
-        keep.push(force.kind.flatten());
+        keep.push(force.law.flatten());
     }
     model.outputs.retain_mut(|output| {
         let mut leaves = output.quantity.leaves_mut().into_iter();
@@ -116,6 +116,6 @@ pub fn embedded(model: &mut Model) {
         element.inertia[2] = Number::Constant(OTHER_MOMENTS[1] * scale);
     }
     for force in &mut model.forces {
-        force.kind.embed(&defaults);
+        force.law.embed(&defaults);
     }
 }

@@ -54,12 +54,12 @@ fn mentioned_in_vain(scene: &Scene, force: usize, entries: &mut Vec<Entry>) {
     let model = &scene.model;
     let written = &scene.written.forces[force];
     let name = Effect::Force { force }.name(&scene.written);
-    let same = |f: &Force| f.name == written.name && f.kind.key() == written.kind.key();
+    let same = |f: &Force| f.name == written.name && f.law.key() == written.law.key();
     let is_in = model.forces.iter().any(same);
     let enabled = scene.places.get(&name, "enabled").cloned();
     let disabled = enabled.filter(|place| place.text.ends_with("false"));
     let mut off = Vec::new();
-    let mut kind = written.kind.clone();
+    let mut kind = written.law.clone();
     for field in kind.fields(model.dimension) {
         let Field::Term(term, part) = field else {
             continue;

@@ -13,7 +13,8 @@ use crate::equations::Route;
 use crate::expression::live::Live;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Graph, Node, NodeId, Symbol};
-use crate::model::{Dimension, ElementId, ForceKind, Model};
+use crate::law::ForceKind;
+use crate::model::{Dimension, ElementId, Model};
 
 /// The structural properties of a model.
 pub struct Structure {
@@ -116,7 +117,7 @@ fn symmetry(inertia: &Sym3<'_>) -> Gyroscopic {
 /// For a field alone: how it acts on the elements, and how on the reference joint as a whole.
 fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) -> Vec<Felt> {
     let force = &model.forces[force];
-    if !matches!(force.kind, ForceKind::Field(_)) {
+    if !matches!(ForceKind::of(force), ForceKind::Field(_)) {
         return Vec::new();
     }
     let alone = Model {

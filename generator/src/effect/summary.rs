@@ -81,7 +81,7 @@ pub fn summary(model: &Model) -> Vec<String> {
 
 /// "contact seat-back (child/torso, frame): elastic, damping, friction"
 fn of_force(model: &Model, force: usize) -> String {
-    let mut kind = model.forces[force].kind.clone();
+    let mut kind = model.forces[force].law.clone();
     let (mut bodies, mut terms) = (Vec::new(), Vec::new());
     for field in kind.fields(model.dimension) {
         match field {

@@ -2,8 +2,10 @@
 
 use super::{Effect, planar};
 use crate::dynamics::augmented::Omitted;
+use crate::law::types::Field as FieldLaw;
+use crate::model::Joint;
 use crate::model::part::{Field, Part};
-use crate::model::{ForceKind, Joint, Model, Number, Reference};
+use crate::model::{Model, Number, Reference};
 
 /// A model, and an effect that is left out of its equations.
 #[derive(Clone, Debug, PartialEq)]
@@ -89,7 +91,7 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             model.keep_forces(&keep);
         }
         Effect::Term { force, term } => {
-            let fields = model.forces[force].kind.fields(dimension).into_iter();
+            let fields = model.forces[force].law.fields(dimension).into_iter();
             let mut terms = fields.filter_map(|field| match field {
                 Field::Term(_, part) => Some(part),
                 Field::Body(_) | Field::Number(..) => None,
@@ -99,7 +101,7 @@ pub fn without(model: &Model, effect: Effect) -> Option<Variant> {
             }
         }
         Effect::FieldByElement { force, system } => {
-            if let ForceKind::Field(field) = &mut model.forces[force].kind {
+            if let Some(field) = model.forces[force].law.get_mut::<FieldLaw>() {
                 field.on.retain(|id| id.system != system);
             }
         }

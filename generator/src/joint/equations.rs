@@ -5,7 +5,8 @@ use super::ball::{self, Orientation};
 use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Graph};
 use crate::model::joint::axes_of_rotation;
-use crate::model::{Dimension, Element, Freedom, Joint};
+use crate::model::{Dimension, Element};
+use crate::model::{Freedom, Joint};
 
 /// Names and SI units of the coordinates and velocities of a joint.
 pub(crate) struct Variables {

@@ -8,8 +8,9 @@
 
 use crate::description::joint::{Axis, Coordinate, JointKey, JointWord};
 use crate::description::shape::Key;
+use crate::model::FreedomKind;
+use crate::model::Joint;
 use crate::model::resolve::joint::{Made, Spelling, Word};
-use crate::model::{FreedomKind, Joint};
 
 /// `hinge: y`
 pub(crate) const SPELLING: Spelling = Spelling {

@@ -17,7 +17,8 @@ use crate::dynamics::kinematics::ElementMotion;
 use crate::dynamics::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::model::{Freedom, FreedomKind, Number};
+use crate::model::Freedom;
+use crate::model::{FreedomKind, Number};
 
 /// The angle by which a kind of degree of freedom turns per unit of its coordinate, 1 or 0, and its advance.
 pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &FreedomKind) -> (f64, Expr<'g>) {

@@ -10,6 +10,8 @@ mod curve;
 mod digest;
 mod hysteresis;
 pub mod joint;
+pub mod law;
+pub mod look;
 mod normal;
 mod number;
 pub mod part;
@@ -27,10 +29,9 @@ pub(crate) mod unloading;
 use serde::Serialize;
 
 pub use crate::description::joint::Coordinate;
-pub use crate::law::types::*;
-pub use crate::law::{Asked, ForceKind};
 pub use hysteresis::Hysteresis;
 pub use joint::{Follows, Freedom, FreedomKind, Joint};
+pub use law::{Law, OfLaw};
 pub use number::Number;
 pub use requirement::Requirement;
 pub(crate) use resolve::is_keyword;
@@ -333,7 +334,7 @@ pub struct Force {
     /// the same law.
     pub name: String,
     /// The law.
-    pub kind: ForceKind,
+    pub law: Box<dyn Law>,
     /// The switches between which the force acts.
     pub active: Active,
 }
@@ -526,7 +527,7 @@ pub enum Quantity {
         /// Index into [`Model::forces`].
         force: usize,
         /// The quantity.
-        what: Asked,
+        what: Box<dyn OfLaw>,
     },
     /// A quantity of a switch.
     Switch {
@@ -567,6 +568,12 @@ pub enum Leaf {
 }
 
 impl Quantity {
+    /// A quantity of the law of a force.
+    pub fn of_force(force: usize, what: impl OfLaw) -> Self {
+        let what = Box::new(what);
+        Quantity::OfForce { force, what }
+    }
+
     /// The measured quantities: for a formula all its operands that are quantities, otherwise the quantity itself.
     pub fn leaves(&self) -> Vec<&Quantity> {
         let Quantity::Formula(formula) = self else {

@@ -19,7 +19,7 @@ impl Model {
             unsigned_zero(number);
         }
         for force in &mut self.forces {
-            force.kind.settle(dimension);
+            force.law.settle(dimension);
         }
         for system in &mut self.systems {
             if let Reference::Prescribed(translation) = &mut system.reference {
@@ -54,14 +54,14 @@ impl Model {
             }
         }
         for force in &mut self.forces {
-            force.kind.forget_directions(dimension);
+            force.law.forget_directions(dimension);
         }
     }
 
     /// Drops forces that have no effect and that no output observes.
     fn drop_idle(&mut self) {
         let dimension = self.dimension;
-        let acts = self.forces.iter().map(|f| f.kind.acts(dimension));
+        let acts = self.forces.iter().map(|f| f.law.acts(dimension));
         let mut keep: Vec<bool> = acts.collect();
         for (force, _) in self
             .forces
@@ -159,7 +159,7 @@ fn for_each_vehicle(model: &mut Model, visit: &mut dyn FnMut(&mut usize)) {
         }
     };
     for force in &mut model.forces {
-        force.kind.bodies_mut().into_iter().for_each(&mut body);
+        force.law.bodies_mut().into_iter().for_each(&mut body);
     }
     for quantity in looked_at(model) {
         for body in quantity.bodies_mut() {
@@ -210,7 +210,7 @@ fn for_each_switch(model: &mut Model, used: &[bool], visit: &mut dyn FnMut(&mut 
     for force in &mut model.forces {
         let Active { since, until } = &mut force.active;
         since.iter_mut().chain(until).for_each(&mut *visit);
-        force.kind.switches_mut().into_iter().for_each(&mut *visit);
+        force.law.switches_mut().into_iter().for_each(&mut *visit);
     }
     let outputs = model.outputs.iter_mut();
     let outputs = outputs.flat_map(|output| output.quantity.leaves_mut());

@@ -6,11 +6,12 @@
 //! here. The vocabulary of effects, the normal form of a model, and the scene with nothing left out know nothing of a
 //! law but these declarations.
 
+use super::law::Law;
 use super::rule::{Rule, Ruled};
 use super::{
     Attachment, Body, Bristle, Curve, Dimension, Element, Extrapolate, FieldComponent, Follows,
-    ForceKind, Freedom, Friction, Hysteresis, Interpolate, Leaf, Model, Number, Output, Parameter,
-    Quantity, Reference, ScaledCurve, Switch, System, Translation, Trigger, Vehicle,
+    Freedom, Friction, Hysteresis, Interpolate, Leaf, Model, Number, Output, Parameter, Quantity,
+    Reference, ScaledCurve, Switch, System, Translation, Trigger, Vehicle,
 };
 
 /// A constituent of a law.
@@ -357,11 +358,11 @@ impl Fresh<'_> {
 
 pub(crate) const AXES: [&str; 3] = ["x", "y", "z"];
 
-impl ForceKind {
+impl dyn Law {
     /// All constituents of a law that exist in this dimension.
     pub fn fields(&mut self, dimension: Dimension) -> Vec<Field<'_>> {
         let mut fields = Vec::new();
-        (**self).fields(dimension, &mut fields);
+        self.add_fields(dimension, &mut fields);
         fields
     }
 
@@ -374,12 +375,12 @@ impl ForceKind {
                 part.leave_out();
             }
         }
-        (**self).settle();
+        self.settle_terms();
     }
 
     /// The terms, each with true if it is present.
     pub fn terms(&self, dimension: Dimension) -> Vec<(Term, bool)> {
-        let mut copy = self.clone();
+        let mut copy = self.boxed();
         let fields = copy.fields(dimension).into_iter();
         let terms = fields.filter_map(|field| match field {
             Field::Term(term, part) => Some((term, part.is_in())),
@@ -513,7 +514,7 @@ impl Model {
         numbers.extend(vehicles.iter_mut().flat_map(of_vehicle));
         numbers.extend(systems.iter_mut().flat_map(of_system));
         for force in forces {
-            for field in force.kind.fields(dimension) {
+            for field in force.law.fields(dimension) {
                 match field {
                     Field::Body(_) => {}
                     Field::Number(_, _, number) => numbers.push(number),
@@ -553,7 +554,7 @@ impl Model {
             }
         }
         for force in &mut self.forces {
-            for field in force.kind.fields(dimension) {
+            for field in force.law.fields(dimension) {
                 if let Field::Term(_, part) = field {
                     uses.extend(part.curves());
                 }

@@ -214,13 +214,13 @@ impl Element {
 impl Force {
     /// Requirements on a force.
     pub fn requirements(&self, dimension: Dimension, curves: Curves<'_>) -> Vec<Requirement> {
-        let mut kind = self.kind.clone();
+        let mut kind = self.law.clone();
         let owner = format!("{} \"{}\"", kind.key(), self.name);
         let mut list = List {
             owner: &owner,
             found: Vec::new(),
         };
-        self.kind.require_first(dimension, &mut list);
+        self.law.require_first(dimension, &mut list);
         for field in kind.fields(dimension) {
             match field {
                 Field::Body(_) => {}
@@ -228,7 +228,7 @@ impl Force {
                 Field::Term(term, part) => list.ruled(&term.keys[0], term.rule, part.numbers()),
             }
         }
-        self.kind.require(dimension, curves, &mut list);
+        self.law.require(dimension, curves, &mut list);
         list.found
     }
 }

@@ -3,7 +3,6 @@
 
 use super::resolve::Resolved;
 use super::{Criteria, Model, Shown};
-use crate::description::force::Force;
 use crate::description::load::Loaded;
 use crate::description::long::long_form;
 use crate::description::place::At;
@@ -38,7 +37,7 @@ impl Scene {
             model: resolved.model,
             written: resolved.written,
             criteria: resolved.criteria,
-            places: Places::of(&loaded),
+            places: Places::of(&loaded, &resolved.owners),
             long_form: long_form(&loaded),
             read: loaded.paths,
             notes: Vec::new(),
@@ -101,7 +100,9 @@ impl Places {
         self.places.keys().filter_map(name)
     }
 
-    fn of(loaded: &Loaded) -> Self {
+    /// The places of all parts; `owners` has the law and the name of each force.
+    fn of(loaded: &Loaded, owners: &[String]) -> Self {
+        let mut owners = owners.iter();
         let mut places = Places::default();
         for file in &loaded.files {
             let top = file.source.at();
@@ -137,11 +138,11 @@ impl Places {
                     places.below(&owner, "", at, &[]);
                 }
             }
-            for (index, force) in contents.forces.iter().flatten().enumerate() {
+            for index in 0..contents.forces.iter().flatten().count() {
                 let at = top.key("forces").item(index);
-                let owner = owner(force);
-                places.enter(&owner, "", at);
-                places.below(&owner, "", at, &[]);
+                let Some(owner) = owners.next() else { break };
+                places.enter(owner, "", at);
+                places.below(owner, "", at, &[]);
             }
             for (index, output) in contents.outputs.iter().flatten().enumerate() {
                 let at = top.key("outputs").item(index);
@@ -207,9 +208,4 @@ impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}:{}", self.file, self.line)
     }
-}
-
-/// Law and name of a force: the name of an owner.
-fn owner(force: &Force) -> String {
-    format!("{} {}", force.law().key, force.header().name)
 }

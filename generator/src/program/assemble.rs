@@ -6,8 +6,9 @@ use super::plan::{Plan, Procedure};
 use super::schedule::Schedule;
 use super::{Costs, Curve, Facts, List, Lists, Method, Options, Routine, Start};
 use crate::equations::Equations;
+use crate::law::ForceKind;
 use crate::method::inputs::Inputs;
-use crate::model::{ForceKind, Interpolate, Model};
+use crate::model::{Interpolate, Model};
 use std::ops::Range;
 
 /// The methods of a model as lists. The result depends only on the arguments and on the version of this crate.
@@ -90,7 +91,7 @@ fn curves(model: &Model) -> Vec<Curve> {
 }
 
 fn users(model: &Model) -> Vec<Option<String>> {
-    let users = model.forces.iter().map(|force| match &force.kind {
+    let users = model.forces.iter().map(|force| match ForceKind::of(force) {
         ForceKind::User(user) => Some(user.function.name.clone()),
         _ => None,
     });

@@ -2,7 +2,8 @@
 
 use super::breakpoints;
 use crate::equations::{Equations, LEAST_VOLUME, NO_BEARING, Variable};
-use crate::model::{Dimension, Extrapolate, ForceKind, Model};
+use crate::law::ForceKind;
+use crate::model::{Dimension, Extrapolate, Model};
 
 /// Names, units and sizes of a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -208,12 +209,15 @@ fn units(equations: &Equations) -> Vec<String> {
 
 /// The shortest time scale of any user force; a force that declares none counts with the time between samples.
 fn longest_step(model: &Model) -> f64 {
-    let scales = model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::User(user) if !user.function.name.is_empty() => {
-            Some(user.scale.unwrap_or(model.run.every))
-        }
-        _ => None,
-    });
+    let scales = model
+        .forces
+        .iter()
+        .filter_map(|force| match ForceKind::of(force) {
+            ForceKind::User(user) if !user.function.name.is_empty() => {
+                Some(user.scale.unwrap_or(model.run.every))
+            }
+            _ => None,
+        });
     scales.fold(f64::INFINITY, f64::min)
 }
 

@@ -29,7 +29,7 @@ fn word(effect: Effect, model: &Model) -> Option<String> {
         Effect::Coupling(_) => "coupling".into(),
         Effect::Force { force } => {
             // A kind of force that is added here needs a case above.
-            format!("force {}", model.forces[force].kind.key())
+            format!("force {}", model.forces[force].law.key())
         }
         Effect::FieldByElement { .. } => "field by element".into(),
         Effect::Parameter(_) => "parameter".into(),
@@ -45,8 +45,8 @@ fn terms(model: &Model) -> impl Iterator<Item = String> {
         Dimension::Space => "space",
     };
     let forces = model.forces.iter().flat_map(move |force| {
-        let terms = force.kind.terms(model.dimension).into_iter();
-        let kind = force.kind.key();
+        let terms = force.law.terms(model.dimension).into_iter();
+        let kind = force.law.key();
         terms.map(move |(term, _)| format!("{dimension} {kind} {}", term.name))
     });
     forces.collect::<Vec<_>>().into_iter()

@@ -1,9 +1,10 @@
 //! The meaning of models: names become indices, quantities become SI numbers, absent effects become nothing.
 
+use bryant_generator::law::ForceKind;
+use bryant_generator::law::types::{BeltLength, Field, JointOutput, Load};
 use bryant_generator::model::{
-    Asked, BeltLength, Body, Component, Dimension, ElementId, Extrapolate, Field, FieldComponent,
-    ForceKind, Given, JointOutput, Load, Model, Number, PointQuantity, Projection, Quantity,
-    Reference, Translation,
+    Body, Component, Dimension, ElementId, Extrapolate, FieldComponent, Given, Model, Number,
+    PointQuantity, Projection, Quantity, Reference, Translation,
 };
 use bryant_generator::read;
 use bryant_generator::read_str;
@@ -100,7 +101,7 @@ fn the_sample_means_what_it_says() {
     assert_eq!(head.inertia[1].constant(), Some(0.03));
 
     let id = |element| ElementId { system: 0, element };
-    let ForceKind::Joint(joint) = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = ForceKind::of(&model.forces[0]) else {
         panic!("a joint")
     };
     assert_eq!(joint.child, id(1));
@@ -111,14 +112,14 @@ fn the_sample_means_what_it_says() {
         (&Default::default(), &Default::default())
     );
     assert!(about[1].friction.is_none() && about[1].neutral.is_none());
-    let ForceKind::Field(field) = &model.forces[1].kind else {
+    let ForceKind::Field(field) = ForceKind::of(&model.forces[1]) else {
         panic!("a field")
     };
-    let Field { on, acceleration } = &**field;
+    let Field { on, acceleration } = field;
     assert_eq!(on, &[id(0), id(1)]);
     assert!(matches!(&acceleration[0], FieldComponent::Curve(c) if c.curve == 0));
     assert_eq!(acceleration[2], FieldComponent::Constant(Number::ZERO));
-    let ForceKind::Belt(belt) = &model.forces[2].kind else {
+    let ForceKind::Belt(belt) = ForceKind::of(&model.forces[2]) else {
         panic!("a belt")
     };
     assert_eq!(belt.force.times, Number::Parameter(0));
@@ -259,13 +260,10 @@ outputs:
     let model = model(&text);
     assert_eq!(model.forces.len(), 1);
     assert_eq!(model.forces[0].name, "man/head");
-    assert!(matches!(
-        model.outputs[0].quantity,
-        Quantity::OfForce {
-            force: 0,
-            what: Asked::Joint(JointOutput { about: 1, .. }),
-        }
-    ));
+    let Quantity::OfForce { force: 0, what } = &model.outputs[0].quantity else {
+        panic!("a quantity of the first force")
+    };
+    assert!(matches!(what.get(), Some(JointOutput { about: 1, .. })));
 }
 
 #[test]
@@ -321,7 +319,7 @@ fn a_constant_acceleration_of_the_reference_is_a_held_curve() {
 }
 
 fn load_of(model: &Model, index: usize) -> &Load {
-    let ForceKind::Load(load) = &model.forces[index].kind else {
+    let ForceKind::Load(load) = ForceKind::of(&model.forces[index]) else {
         panic!("{:?}", model.forces[index])
     };
     load
@@ -420,7 +418,7 @@ fn expressions_of_parameters_stay_and_constants_fold() {
   - { joint: man/head, damping: 2 * 3 N*m*s * mu, friction: (stiffness + 1 kN) * 10 cm, friction_speed: 1 rpm }
 ");
     let model = model(&text);
-    let ForceKind::Joint(joint) = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = ForceKind::of(&model.forces[0]) else {
         panic!("a joint")
     };
     let about = &joint.about;
@@ -448,7 +446,7 @@ fn friction_without_a_speed_has_the_documented_one() {
   - { joint: man/head, friction: 1 }
   - { contact: seat, friction: 0.3, ellipsoid: { on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0, 0], normal: [3, 4] }, damping: 1 }
 "));
-    let ForceKind::Joint(joint) = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = ForceKind::of(&model.forces[0]) else {
         panic!("a joint")
     };
     let about = &joint.about;
@@ -456,7 +454,7 @@ fn friction_without_a_speed_has_the_documented_one() {
         about[1].friction.as_ref().unwrap().tolerance,
         Number::Constant(0.1)
     );
-    let ForceKind::Contact(contact) = &model.forces[1].kind else {
+    let ForceKind::Contact(contact) = ForceKind::of(&model.forces[1]) else {
         panic!("a contact")
     };
     assert_eq!(
@@ -515,7 +513,7 @@ outputs:
         [4.0, 5.0, 6.0]
     );
     assert_eq!(constants(&man.elements[0].inertia), [1.0, 2.0, 2.5]);
-    let ForceKind::Joint(joint) = &model.forces[0].kind else {
+    let ForceKind::Joint(joint) = ForceKind::of(&model.forces[0]) else {
         panic!("a joint")
     };
     let about = &joint.about;
@@ -532,13 +530,10 @@ outputs:
     assert!(
         matches!(&wrench.moment[2], FieldComponent::Curve(c) if c.times == Number::Constant(5.0))
     );
-    assert!(matches!(
-        model.outputs[0].quantity,
-        Quantity::OfForce {
-            what: Asked::Joint(JointOutput { about: 2, .. }),
-            ..
-        }
-    ));
+    let Quantity::OfForce { what, .. } = &model.outputs[0].quantity else {
+        panic!("a quantity of a force")
+    };
+    assert!(matches!(what.get(), Some(JointOutput { about: 2, .. })));
     assert!(matches!(
         model.outputs[1].quantity,
         Quantity::Rotation {
@@ -801,7 +796,7 @@ forces:
         let ours = ours.constant().expect("a number");
         assert!((ours - expected).abs() <= 4.0 * f64::EPSILON * 5.0);
     }
-    let ForceKind::Belt(belt) = &model.forces[0].kind else {
+    let ForceKind::Belt(belt) = ForceKind::of(&model.forces[0]) else {
         panic!("a belt")
     };
     assert_eq!(belt.to.on, Body::Vehicle(1));

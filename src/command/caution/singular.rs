@@ -7,7 +7,8 @@
 //! searched from many start values. This proves nothing, but the joints of two or three hinges and sliders that users
 //! write have few minima.
 
-use bryant_generator::model::{Active, ElementId, ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::{Active, ElementId, Model};
 use bryant_generator::model::{Freedom, Joint};
 use std::f64::consts::{PI, TAU};
 
@@ -152,7 +153,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
 fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for force in &model.forces {
-        let ForceKind::Freedom(on) = &force.kind else {
+        let ForceKind::Freedom(on) = ForceKind::of(force) else {
             continue;
         };
         if (on.child, on.freedom) != (joint, index) || force.active != Active::default() {

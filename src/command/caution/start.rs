@@ -3,9 +3,11 @@
 //! Each remark states a fact with numbers; only the user knows whether it is intended.
 
 use crate::pose::{Numbers, Pose, Vec3, dot};
+use bryant_generator::law::ForceKind;
+use bryant_generator::law::types::{Against, Contact};
 use bryant_generator::model::{
-    Active, Against, Body, Bristle, Contact, Dimension, ElementId, Force, ForceKind, Friction,
-    Model, Number, Reference, Scene, Trigger,
+    Active, Body, Bristle, Dimension, ElementId, Force, Friction, Model, Number, Reference, Scene,
+    Trigger,
 };
 
 /// The start of a run.
@@ -83,7 +85,7 @@ impl<'a> Start<'a> {
         };
         let mut all = Vec::new();
         for force in &self.model.forces {
-            match &force.kind {
+            match ForceKind::of(force) {
                 ForceKind::Joint(law) => {
                     let bending = law.bending.iter();
                     let bending = bending.flat_map(|bending| [&bending.flexion, &bending.torsion]);
@@ -145,7 +147,7 @@ impl<'a> Start<'a> {
             });
             if let Some((force, vehicle, speed)) = found {
                 let (name, vehicle) = (&system.name, &self.model.vehicles[vehicle].name);
-                let (kind, tie) = (force.kind.key(), &force.name);
+                let (kind, tie) = (force.law.key(), &force.name);
                 let (own, fast) = (rounded(length(own)), rounded(length(speed)));
                 let remedy = match self.is_read {
                     true => {
@@ -168,19 +170,19 @@ impl<'a> Start<'a> {
     /// The vehicle that a force connects to a system, and the least difference of their velocities that deserves a
     /// remark \[m/s\].
     fn held_by(&self, force: &Force, system: usize) -> Option<(usize, f64)> {
-        let least = match &force.kind {
+        let least = match ForceKind::of(force) {
             ForceKind::Belt(_) | ForceKind::Spring(_) | ForceKind::Bushing(_) => SLOW,
             ForceKind::Contact(contact) if self.touches(contact, force.active) => CONVEYED,
             _ => return None,
         };
-        let mut kind = force.kind.clone();
+        let mut kind = force.law.clone();
         let bodies: Vec<Body> = kind.bodies_mut().into_iter().map(|body| *body).collect();
         let belongs = |body: &Body| matches!(body, Body::Element(id) if id.system == system);
         let vehicle = bodies.iter().find_map(|body| match body {
-            Body::Vehicle(vehicle) => Some(*vehicle),
+            Body::Vehicle(vehicle) => Some(vehicle),
             _ => None,
         });
-        bodies.iter().any(belongs).then_some((vehicle?, least))
+        bodies.iter().any(belongs).then_some((*vehicle?, least))
     }
 
     /// True if an ellipsoid touches a plane: its centre is in front of the plane, and nearer than the ellipsoid
@@ -235,7 +237,7 @@ impl<'a> Start<'a> {
     /// Remarks about ellipsoids whose centre is behind the plane of their contact.
     fn behind_planes(&self) -> Vec<String> {
         let found = self.model.forces.iter().filter_map(|force| {
-            let ForceKind::Contact(contact) = &force.kind else {
+            let ForceKind::Contact(contact) = ForceKind::of(force) else {
                 return None;
             };
             let (height, reach) = self.place(contact, force.active)?;
@@ -266,10 +268,15 @@ impl<'a> Start<'a> {
 /// forgotten. A field without acceleration says that nothing is to have weight.
 fn weightless(scene: &Scene) -> Option<String> {
     let model = &scene.model;
-    let field = |force: &Force| matches!(force.kind, ForceKind::Field(_) | ForceKind::User(_));
+    let field = |force: &Force| {
+        matches!(
+            ForceKind::of(force),
+            ForceKind::Field(_) | ForceKind::User(_)
+        )
+    };
     let holds = |force: &Force| {
         matches!(
-            force.kind,
+            ForceKind::of(force),
             ForceKind::Contact(_) | ForceKind::Belt(_) | ForceKind::Airbag(_)
         )
     };
@@ -383,10 +390,13 @@ pub fn unfired(
 pub fn near_right_angle(model: &Model, pose: &Pose) -> Option<[String; 2]> {
     /// Distance from ±90° that counts as close, 20° \[rad\].
     const NEAR: f64 = 20.0 * std::f64::consts::PI / 180.0;
-    let joints = model.forces.iter().filter_map(|force| match &force.kind {
-        ForceKind::Joint(law) => Some((force, law)),
-        _ => None,
-    });
+    let joints = model
+        .forces
+        .iter()
+        .filter_map(|force| match ForceKind::of(force) {
+            ForceKind::Joint(law) => Some((force, law)),
+            _ => None,
+        });
     joints.filter(|_| model.dimension == Dimension::Space).find_map(|(force, law)| {
         let [first, middle, last] = law.order.0;
         let axes = ["x", "y", "z"];

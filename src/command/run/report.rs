@@ -63,7 +63,7 @@ pub fn html(
         .collect();
     let laws = model.forces.iter().enumerate().map(|(index, force)| {
         let bodies = indices(&plots::of_force(model, index));
-        json!({ "name": force.name, "kind": force.kind.key(), "bodies": bodies })
+        json!({ "name": force.name, "kind": force.law.key(), "bodies": bodies })
     });
     let laws: Vec<Value> = laws.collect();
     let title = match model.title.as_str() {

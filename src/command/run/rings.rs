@@ -6,9 +6,9 @@
 
 use crate::equations;
 use crate::simulation::Recording;
-use bryant_generator::model::{
-    Asked, BeltOutput, BeltQuantity, ForceKind, Model, Number, Output, Quantity,
-};
+use bryant_generator::law::ForceKind;
+use bryant_generator::law::types::{BeltOutput, BeltQuantity};
+use bryant_generator::model::{Model, Number, Output, Quantity};
 use bryant_runtime::program::Job;
 
 /// The resistance of a ring for which the model gives none \[N s/m\].
@@ -24,7 +24,7 @@ pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
     let mut asked = model.clone();
     asked.outputs.clear();
     for (force, one) in model.forces.iter().enumerate() {
-        let ForceKind::Belt(belt) = &one.kind else {
+        let ForceKind::Belt(belt) = ForceKind::of(&one) else {
             continue;
         };
         for (part, ring) in belt.rings.iter().enumerate() {
@@ -37,7 +37,7 @@ pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
                     name: asked.outputs.len().to_string(),
                     quantity: Quantity::OfForce {
                         force,
-                        what: Asked::Belt(BeltOutput {
+                        what: Box::new(BeltOutput {
                             part,
                             what: BeltQuantity::Force,
                         }),

@@ -1,6 +1,7 @@
 //! Finds out why a model slides instead of coming to rest: which contacts and belts carry load but give way.
 
-use bryant_generator::model::{ForceKind, Model};
+use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
 use bryant_runtime::Info;
 
 /// A switch whose time of firing is larger has not fired \[s\].
@@ -35,7 +36,7 @@ pub fn reasons(
     for force in &model.forces {
         let name = &force.name;
         let Some(load) = carries(name) else { continue };
-        let reason = match &force.kind {
+        let reason = match ForceKind::of(force) {
             ForceKind::Contact(contact)
                 if contact.friction.is_some() && contact.bristle.is_none() =>
             {

@@ -4,7 +4,8 @@
 //! and outputs that mention it, directly or by each other. Their names begin with that of the system (`sister-chin`, `sister
 //! head`). What does not mention the system is common to all instances, and counts once.
 
-use super::{Known, Node, kind_and_name};
+use super::{Known, Node};
+use crate::description::language::Language;
 use crate::description::place::At;
 use crate::description::shape::Problems;
 use crate::description::tree::Kind;
@@ -31,6 +32,7 @@ enum Reference {
 
 /// How names change.
 pub struct Renaming {
+    language: &'static Language,
     from: String,
     to: String,
     /// The names that get a prefix, behind their kind: `contact chin`, `switch fire`, `surface head`, `output head force`.
@@ -63,6 +65,7 @@ pub fn rename(
         return None;
     };
     let mut renaming = Renaming {
+        language: problems.language,
         from: from.to_owned(),
         to: system.unwrap_or(from).to_owned(),
         names: HashSet::new(),
@@ -83,7 +86,7 @@ impl Renaming {
         loop {
             let before = self.names.len();
             for section in SECTIONS {
-                for (name, item) in items(root, section) {
+                for (name, item) in items(root, section, self.language) {
                     if self.mentions(item)
                         && let Some(name) = name
                     {
@@ -160,7 +163,7 @@ impl Renaming {
                 *text = renamed;
             }
         });
-        match (section, kind_and_name(item)) {
+        match (section, self.language.kind_and_name(item)) {
             ("forces", Some((kind, name))) if kind != "joint" => {
                 let name = name.to_owned();
                 item.change(kind, |n| n.with_text(self.prefixed(&name)));
@@ -248,7 +251,11 @@ impl Renaming {
 }
 
 /// The items of a section, each with its kind and name where it has one.
-fn items<'n>(root: &'n mut Node, section: &str) -> Vec<(Option<String>, &'n mut Node)> {
+fn items<'n>(
+    root: &'n mut Node,
+    section: &str,
+    language: &Language,
+) -> Vec<(Option<String>, &'n mut Node)> {
     match root.get_mut(section).map(|list| &mut list.kind) {
         Some(Kind::List(all)) => all
             .iter_mut()
@@ -256,7 +263,9 @@ fn items<'n>(root: &'n mut Node, section: &str) -> Vec<(Option<String>, &'n mut 
                 let name = match section {
                     "switches" => item.word("switch").map(|name| format!("switch {name}")),
                     "outputs" => item.word("name").map(|name| format!("output {name}")),
-                    _ => kind_and_name(item).map(|(kind, name)| format!("{kind} {name}")),
+                    _ => language
+                        .kind_and_name(item)
+                        .map(|(kind, name)| format!("{kind} {name}")),
                 };
                 (name, item)
             })

@@ -5,7 +5,7 @@
 //! those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two other angles. The [axes of
 //! joints](super::axes) are of both kinds.
 
-use super::{Expander, Node, law_and_name};
+use super::{Expander, Node};
 use crate::description::tree::{Entry, Kind};
 use crate::diagnostic::quoted;
 
@@ -247,7 +247,7 @@ impl Expander<'_> {
         if !force.take_flag("mirror") {
             return None;
         }
-        let (law, _) = law_and_name(force)?;
+        let (law, _) = self.problems.language.law_and_name(force)?;
         let mut image = force.clone();
         (law.image)(self, force, &mut image)?;
         Some(image)

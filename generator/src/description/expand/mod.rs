@@ -17,7 +17,6 @@ use super::place::At;
 use super::shape::Problems;
 pub(crate) use super::tree::Node;
 use super::tree::{Entry, Kind, MAX_ENTRIES, Source, Span};
-use crate::law::{LAWS, Registered};
 use mirror::Words;
 use std::collections::{HashMap, HashSet};
 use surface::Surfaces;
@@ -185,7 +184,7 @@ impl Node {
     }
 
     /// The text of a key.
-    fn word(&self, key: &str) -> Option<&str> {
+    pub(crate) fn word(&self, key: &str) -> Option<&str> {
         self.get(key).and_then(Node::text)
     }
 
@@ -234,15 +233,4 @@ impl Node {
         self.remove(key)
             .is_some_and(|node| node.text().is_some_and(|t| t.eq_ignore_ascii_case("true")))
     }
-}
-
-/// The law of a force and its name: the first key that says so.
-fn law_and_name(force: &Node) -> Option<(&'static Registered, &str)> {
-    LAWS.iter()
-        .find_map(|law| Some((law, force.word(law.key)?)))
-}
-
-/// The kind of a force and its name.
-fn kind_and_name(force: &Node) -> Option<(&'static str, &str)> {
-    law_and_name(force).map(|(law, name)| (law.key, name))
 }

@@ -6,7 +6,8 @@ use crate::dynamics::numbers::{breakpoint_indicator, rate};
 use crate::equations;
 use crate::expression::passes::Recall;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node};
-use crate::model::{Contact, Curve, Extrapolate, Model, ScaledCurve};
+use crate::law::types::Contact;
+use crate::model::{Curve, Extrapolate, Model, ScaledCurve};
 
 /// The events of all laws.
 pub struct Events<'g> {

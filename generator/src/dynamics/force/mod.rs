@@ -22,6 +22,7 @@ use crate::dynamics::numbers::{curve, number};
 use crate::dynamics::time;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
+use crate::law::ForceKind;
 use crate::law::{Measures, Setting};
 use crate::model::{FieldComponent, Model};
 
@@ -61,7 +62,7 @@ pub fn applied_forces<'g>(
     };
     applied.declare_switches(graph, model);
     for (index, force) in model.forces.iter().enumerate() {
-        graph.section(format!("{} {}", force.kind.key(), force.name));
+        graph.section(format!("{} {}", force.law.key(), force.name));
         let setting = Setting {
             graph,
             model,
@@ -71,7 +72,9 @@ pub fn applied_forces<'g>(
             name: &force.name,
             gate: applied.gate(force.active),
         };
-        let measures = force.kind.apply(setting, &mut applied);
+        let measures = ForceKind::of(force)
+            .equations()
+            .apply(setting, &mut applied);
         applied.measures.push(measures);
     }
     applied

@@ -30,7 +30,8 @@ use crate::dynamics::numbers::{breakpoint_indicator, number, rate, vector};
 use crate::expression::passes::Recall;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
-use crate::model::{Against, Contact, Dimension, Ellipsoid, Number, ScaledCurve};
+use crate::law::types::{Against, Contact};
+use crate::model::{Dimension, Ellipsoid, Number, ScaledCurve};
 
 /// The gap of a law that cannot begin before another event, such as a switch.
 pub const FAR: f64 = 1e30;

@@ -13,7 +13,8 @@ use crate::dynamics::spatial::{Spatial, Wrench};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::joint::twist::turn_and_advance;
-use crate::model::{Dimension, Joint, Reference};
+use crate::model::Joint;
+use crate::model::{Dimension, Reference};
 
 /// A system as links; parents come first.
 pub struct Tree<'g> {

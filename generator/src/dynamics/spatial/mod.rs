@@ -39,7 +39,8 @@ use super::layout::{Layout, Orientation};
 use super::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
-use crate::model::{ElementId, Joint, Model, System};
+use crate::model::Joint;
+use crate::model::{ElementId, Model, System};
 use std::ops::Range;
 
 /// A system in motion.

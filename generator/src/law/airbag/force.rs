@@ -32,8 +32,9 @@ use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::law::contact::force::pair::{direction, on_ellipsoid};
 use crate::law::contact::force::{Touch, begins};
+use crate::law::types::{Against, Airbag, Contact, Inflow};
 use crate::law::{Equations, Measures, Setting};
-use crate::model::{Against, Airbag, Contact, Ellipsoid, Inflow, Model};
+use crate::model::{Ellipsoid, Model};
 use std::f64::consts::PI;
 
 /// ψ₀²

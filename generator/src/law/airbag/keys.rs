@@ -7,7 +7,7 @@ use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record};
 use crate::description::short::ByName;
 use crate::description::surface::Ellipsoid;
-use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::law::{Header, Keys, Law, record};
 use crate::model::resolve::Resolver;
 
 record! {
@@ -91,8 +91,8 @@ impl Keys for Airbag {
         }
     }
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        super::check::airbag(resolver, self, at).map(ForceKind::from)
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
+        super::check::airbag(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

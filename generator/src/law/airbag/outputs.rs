@@ -5,7 +5,9 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Look, Measures, OfLaw, Outputs, Value};
+use crate::law::{Measures, Value};
+use crate::model::law::{OfLaw, Outputs};
+use crate::model::look::Look;
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Quantity};
 use serde::Serialize;
@@ -27,7 +29,11 @@ pub enum AirbagQuantity {
     Area,
 }
 
-impl OfLaw for AirbagQuantity {}
+impl OfLaw for AirbagQuantity {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+}
 
 /// Name, unit and quantity; `None` for the force, which also has a direction.
 const TABLE: [(&str, &str, Option<AirbagQuantity>); 7] = [
@@ -51,7 +57,7 @@ impl Outputs for Airbag {
         resolver.of_law(at, "an airbag");
         let (what, unit) = resolver.look_up(written, &TABLE, "an airbag", at)?;
         let quantity = match what {
-            Some(what) => resolver.scalar(force, Asked::Airbag(what), at),
+            Some(what) => resolver.scalar(force, what, at),
             None => {
                 let bodies: Vec<Body> = self.ellipsoids().map(|e| e.center.on).collect();
                 resolver.on_points(written, force, &bodies, at)?
@@ -61,7 +67,7 @@ impl Outputs for Airbag {
     }
 
     fn looks(&self) -> Vec<Look<'_>> {
-        let bag = Look::Bag(self.bag.round(), Asked::Airbag(AirbagQuantity::Volume));
+        let bag = Look::Bag(self.bag.round(), Box::new(AirbagQuantity::Volume));
         let others = self.against.iter().map(|other| Look::Round(other.round()));
         std::iter::once(bag).chain(others).collect()
     }
@@ -90,8 +96,8 @@ impl<'g> Measures<'g> for AirbagMeasures<'g> {
         self.on.clone()
     }
 
-    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
-        let Asked::Airbag(what) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(what) = asked.get::<AirbagQuantity>() else {
             return None;
         };
         Some(Value::Scalar(match what {

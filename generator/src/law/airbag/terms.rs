@@ -1,15 +1,15 @@
 //! The terms of an airbag: its inflow, its gas at the start, its outflow.
 
 use super::check::{Airbag, Filled, Inflow};
-use crate::law::Terms;
 use crate::law::contact::terms::shape;
+use crate::model::law::Terms;
 use crate::model::part::{Field, Fresh, Part, Term, as_written, attachment};
 use crate::model::requirement::{Curves, List};
 use crate::model::rule::{Rule, Ruled};
 use crate::model::{Body, Dimension, Ellipsoid, Number, ScaledCurve};
 
 impl Terms for Airbag {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Airbag {
             bag,
             against,

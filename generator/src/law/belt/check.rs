@@ -5,20 +5,16 @@ use super::keys::{
     Belt as Written, Limiter as WrittenLimiter, Pretensioner as WrittenPretensioner,
     Retractor as WrittenRetractor,
 };
-use crate::description::load::Loaded;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
-use crate::law::Written as Force;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::kinematics::{IDENTITY, Matrix, distance, place, start, vehicle_start};
 use crate::model::resolve::quantity::{
     Expected, FORCE, LENGTH, LINEAR_DAMPING, Measure, PURE, STIFFNESS, TIME,
 };
-use crate::model::{
-    Attachment, ForceKind, Hysteresis, Number, Reference, Rule, ScaledCurve, System,
-};
+use crate::model::{Attachment, Hysteresis, Number, Reference, Rule, ScaledCurve, System};
 use serde::Serialize;
 
 /// Stretch from which on damping has its full size, if the user gives none \[m\].
@@ -514,48 +510,24 @@ fn reference_rotation(resolver: &Resolver<'_>, system: &System) -> Matrix {
     }
 }
 
-/// Reports belts whose ends coincide at the start, so that their untensioned length is 0.
-pub(crate) fn check_belts(resolver: &Resolver<'_>, loaded: &Loaded) {
-    let frames: Vec<_> = resolver
-        .systems
-        .iter()
-        .map(|s| start(s, reference_rotation(resolver, s), &resolver.defaults))
-        .collect();
-    for force in &resolver.forces {
-        let ForceKind::Belt(belt) = &force.kind else {
-            continue;
-        };
-        let points = belt
-            .points()
-            .map(|point| place(point, &frames, &resolver.vehicles, &resolver.defaults));
-        let points: Vec<_> = points.collect();
-        let apart: f64 = points
-            .windows(2)
-            .map(|ends| distance(ends[0], ends[1]))
-            .sum();
-        let slack = match &belt.length {
-            BeltLength::Given(_) => continue,
-            BeltLength::Slack(slack) => slack.value(&resolver.defaults),
-            BeltLength::Pretension(_) => 0.0,
-        };
-        if apart + slack < SHORTEST
-            && let Some(at) = belt_place(loaded, &force.name)
-        {
-            resolver.problems.add(at.problem(
-                must_have_length(&force.name),
-                "move one end, or give `length` or `slack`",
-            ));
-        }
+/// Reports a belt whose ends coincide at the start, so that its untensioned length is 0.
+pub(crate) fn check_length(belt: &Belt, resolver: &Resolver<'_>, name: &str, at: At<'_>) {
+    let slack = match &belt.length {
+        BeltLength::Given(_) => return,
+        BeltLength::Slack(slack) => slack.value(&resolver.defaults),
+        BeltLength::Pretension(_) => 0.0,
+    };
+    let frames = resolver.systems.iter();
+    let frames = frames.map(|s| start(s, reference_rotation(resolver, s), &resolver.defaults));
+    let frames: Vec<_> = frames.collect();
+    let place = |point| place(point, &frames, &resolver.vehicles, &resolver.defaults);
+    let points: Vec<_> = belt.points().map(place).collect();
+    let ends = points.windows(2);
+    let apart: f64 = ends.map(|ends| distance(ends[0], ends[1])).sum();
+    if apart + slack < SHORTEST {
+        resolver.problems.add(at.key("belt").problem(
+            must_have_length(name),
+            "move one end, or give `length` or `slack`",
+        ));
     }
-}
-
-fn belt_place<'w>(loaded: &'w Loaded, name: &str) -> Option<At<'w>> {
-    loaded.files.iter().find_map(|file| {
-        let list = file.source.at().key("forces");
-        let forces = file.contents.forces.iter().flatten();
-        forces
-            .enumerate()
-            .find(|(_, f)| matches!(f, Force::Belt(b) if b.belt == name))
-            .map(|(index, _)| list.item(index).key("belt"))
-    })
 }

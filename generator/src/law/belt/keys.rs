@@ -6,7 +6,7 @@ use crate::description::force::Attachment;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record};
-use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::law::{Header, Keys, Law, record};
 use crate::model::resolve::Resolver;
 
 record! {
@@ -117,8 +117,8 @@ impl Keys for Belt {
         }
     }
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        super::check::belt(resolver, self, at).map(ForceKind::from)
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
+        super::check::belt(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

@@ -6,7 +6,9 @@ use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
+use crate::law::{Measures, Value};
+use crate::model::law::{OfLaw, Outputs};
+use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use crate::model::{Body, Quantity};
@@ -41,7 +43,11 @@ pub struct BeltOutput {
     pub what: BeltQuantity,
 }
 
-impl OfLaw for BeltOutput {}
+impl OfLaw for BeltOutput {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+}
 
 const TABLE: [(&str, &str, BeltQuantity); 7] = [
     ("force", "N", BeltQuantity::Force),
@@ -88,10 +94,10 @@ impl Outputs for Belt {
                 segment(resolver, written, self, at)
             }
         };
-        let asked = Asked::Belt(BeltOutput {
+        let asked = BeltOutput {
             part: part.unwrap_or_default(),
             what,
-        });
+        };
         let quantity = resolver.scalar(force, asked, at);
         part.map(|_| (quantity, unit))
     }
@@ -179,8 +185,8 @@ impl<'g> Measures<'g> for BeltMeasures<'g> {
         self.on.clone()
     }
 
-    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
-        let Asked::Belt(BeltOutput { part, what }) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(BeltOutput { part, what }) = asked.get() else {
             return None;
         };
         Some(Value::Scalar(match what {

@@ -1,14 +1,17 @@
 //! The terms of a belt: its curves, its untensioned length, its devices.
 
+use super::check::check_length;
 use super::check::{Belt, BeltLength, Pretensioner, Retractor, Ring};
-use crate::law::Terms;
+use crate::description::place::At;
+use crate::model::law::Terms;
 use crate::model::part::{Field, Fresh, Part, Term, as_written, attachment};
 use crate::model::requirement::{Curves, List};
+use crate::model::resolve::Resolver;
 use crate::model::rule::{Rule, Ruled};
 use crate::model::{Body, Curve, Dimension, Extrapolate, Number, ScaledCurve};
 
 impl Terms for Belt {
-    fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
         let Belt {
             from,
             to,
@@ -76,7 +79,7 @@ impl Terms for Belt {
         fields.push(Field::Term(untensioned, length));
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         // Without an elastic force, no length gives the pretension.
         if !self.force.is_in() && matches!(self.length, BeltLength::Pretension(_)) {
             self.length.leave_out();
@@ -139,6 +142,10 @@ impl Terms for Belt {
                 list.reached(path, tension, curve, times);
             }
         }
+    }
+
+    fn check_start(&self, resolver: &Resolver<'_>, name: &str, at: At<'_>) {
+        check_length(self, resolver, name, at);
     }
 
     fn bodies_mut(&mut self) -> Vec<&mut Body> {

@@ -5,7 +5,7 @@ use crate::description::expand::{Expander, Node};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::description::shape::{Key, record};
-use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::law::{Header, Keys, Law, record};
 use crate::model::resolve::Resolver;
 
 record! {
@@ -105,8 +105,8 @@ impl Keys for Bushing {
         }
     }
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        super::check::bushing(resolver, self, at).map(ForceKind::from)
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
+        super::check::bushing(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

@@ -5,7 +5,9 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
+use crate::law::{Measures, Value};
+use crate::model::law::{OfLaw, Outputs};
+use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
 use serde::Serialize;
@@ -27,6 +29,10 @@ pub enum BushingQuantity {
 }
 
 impl OfLaw for BushingQuantity {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+
     fn projection_mut(&mut self) -> Option<&mut Projection> {
         match self {
             BushingQuantity::Force(_, projection) | BushingQuantity::Moment(_, projection) => {
@@ -115,8 +121,8 @@ impl Outputs for Bushing {
                 }
             }
         };
-        let what = Asked::Bushing(what);
-        Some((Quantity::OfForce { force, what }, unit))
+        let what = what;
+        Some((Quantity::of_force(force, what), unit))
     }
 
     fn looks(&self) -> Vec<Look<'_>> {
@@ -143,8 +149,8 @@ impl<'g> Measures<'g> for BushingMeasures<'g> {
         vec![self.force]
     }
 
-    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
-        let Asked::Bushing(what) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(what) = asked.get::<BushingQuantity>() else {
             return None;
         };
         let on = |second: bool, vector: Vec3<'g>| if second { -vector } else { vector };

@@ -1,13 +1,13 @@
 //! The terms of a bushing: elastic and viscous, for each direction.
 
 use super::check::{Bushing, Direction, Mount};
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{AXES, Field, Term, attachment, finite};
 use crate::model::rule::Rule;
 use crate::model::{Body, Dimension, Number};
 
 impl Terms for Bushing {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Bushing {
             from,
             to,

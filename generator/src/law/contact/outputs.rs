@@ -5,8 +5,11 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Look, Measures, OfLaw, Outputs, Round, Value};
+use crate::law::{Measures, Value};
 use crate::model::Quantity;
+use crate::model::Round;
+use crate::model::law::{OfLaw, Outputs};
+use crate::model::look::Look;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use serde::Serialize;
@@ -26,7 +29,11 @@ pub enum ContactQuantity {
     PermanentSet,
 }
 
-impl OfLaw for ContactQuantity {}
+impl OfLaw for ContactQuantity {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+}
 
 const TABLE: [(&str, &str, ContactQuantity); 5] = [
     ("force", "N", ContactQuantity::Force),
@@ -51,7 +58,7 @@ impl Outputs for Contact {
                 let bodies = [self.ellipsoid.on, self.against.place().on];
                 resolver.force_on(written, force, bodies, at)?
             }
-            what => resolver.scalar(force, Asked::Contact(what), at),
+            what => resolver.scalar(force, what, at),
         };
         Some((quantity, unit))
     }
@@ -94,8 +101,8 @@ impl<'g> Measures<'g> for ContactMeasures<'g> {
         vec![self.on_first]
     }
 
-    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
-        let Asked::Contact(what) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(what) = asked.get::<ContactQuantity>() else {
             return None;
         };
         Some(Value::Scalar(match what {

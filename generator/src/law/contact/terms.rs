@@ -1,7 +1,7 @@
 //! The terms of a contact, and the conditions that the numbers of a plane must meet together.
 
 use super::check::{Against, Contact};
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{Field, Term, attachment, finite};
 use crate::model::requirement::{Curves, List};
 use crate::model::rule::Rule;
@@ -11,7 +11,7 @@ use crate::model::{Body, Dimension, EdgeRule, Ellipsoid, Number, Plane};
 const SQUARE_TO: f64 = 1e-12;
 
 impl Terms for Contact {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Contact {
             ellipsoid,
             semi_axes,
@@ -73,7 +73,7 @@ impl Terms for Contact {
         }
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         if self.elastic.is_none() {
             self.hysteresis = None;
         }

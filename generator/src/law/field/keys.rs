@@ -3,7 +3,7 @@
 use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::description::shape::{Key, record};
-use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::law::{Header, Keys, Law, record};
 use crate::model::resolve::Resolver;
 
 record! {
@@ -38,8 +38,8 @@ impl Keys for Field {
         }
     }
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        super::check::field(resolver, self, at).map(ForceKind::from)
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
+        super::check::field(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

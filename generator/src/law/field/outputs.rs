@@ -3,8 +3,8 @@
 use super::check::Field;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
-use crate::law::Outputs;
 use crate::model::Quantity;
+use crate::model::law::Outputs;
 use crate::model::resolve::Resolver;
 
 impl Outputs for Field {

@@ -1,12 +1,12 @@
 //! The terms of a field: its components.
 
 use super::check::Field as Law;
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{Field, components};
 use crate::model::{Body, Dimension, FieldComponent, Number};
 
 impl Terms for Law {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Law { on, acceleration } = self;
         fields.extend(on.iter().map(|&id| Field::Body(Body::Element(id))));
         components(acceleration, "", "acceleration", dimension, fields);

@@ -9,6 +9,7 @@ use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::LongAxis;
 use crate::diagnostic::quoted;
+use crate::model::law;
 use crate::model::part::{AXES, Part};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
@@ -17,10 +18,8 @@ use crate::model::resolve::quantity::{
     ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
     SPEED, STIFFNESS, TORQUE,
 };
-use crate::model::{
-    Bristle, ElementId, FieldComponent, ForceKind, Freedom as KinematicFreedom, Friction,
-    Hysteresis, Joint as KinematicJoint, Number, ScaledCurve,
-};
+use crate::model::{Bristle, ElementId, FieldComponent, Friction, Hysteresis, Number, ScaledCurve};
+use crate::model::{Freedom as KinematicFreedom, Joint as KinematicJoint};
 use serde::Serialize;
 
 /// Speed from which on joint friction has its full size, if the user gives none \[rad/s\].
@@ -292,13 +291,13 @@ pub(crate) fn joint(
     resolver: &mut Resolver<'_>,
     written: &Written,
     at: At<'_>,
-) -> Option<ForceKind> {
+) -> Option<Box<dyn law::Law>> {
     let child = resolver.element_id(&written.joint, at.key("joint"));
     if let Some(id) = child
         && let joint @ KinematicJoint::Freedoms(_) = joint_at(resolver, id)
     {
         let law = law_of_freedom(resolver, written, id, joint.freedoms(), at);
-        return law.map(ForceKind::from);
+        return law.map(|law| Box::new(law) as Box<dyn law::Law>);
     }
     if written.freedom.is_some() && child.is_some() {
         resolver.problems.add(at.key("freedom").key_problem(
@@ -321,7 +320,7 @@ pub(crate) fn joint(
             bending(resolver, written, at),
         ),
     };
-    Some(ForceKind::from(Joint {
+    Some(Box::new(Joint {
         child: child?,
         about,
         order: order(written),

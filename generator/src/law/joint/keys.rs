@@ -7,7 +7,7 @@ use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record, words};
 use crate::description::short::Each;
 use crate::description::short::LongAxis;
-use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::law::{Header, Keys, Law, record};
 use crate::model::resolve::Resolver;
 
 record! {
@@ -226,7 +226,7 @@ impl Keys for Joint {
         }
     }
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
         super::check::joint(resolver, self, at)
     }
 

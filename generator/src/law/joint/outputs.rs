@@ -4,8 +4,9 @@ use super::check::{Freedom, Joint};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
-use crate::law::{Asked, Measures, OfLaw, Outputs, Value};
+use crate::law::{Measures, Value};
 use crate::model::Quantity;
+use crate::model::law::{Measured, OfLaw, Outputs, Side};
 use crate::model::resolve::Resolver;
 use serde::Serialize;
 
@@ -35,6 +36,10 @@ pub struct JointOutput {
 }
 
 impl OfLaw for JointOutput {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+
     fn exists_in_plane(&self) -> bool {
         self.about == 1
     }
@@ -75,8 +80,26 @@ impl Outputs for Joint {
         resolver.without(at, &["freedom"], "a ball joint");
         let (what, unit) = resolver.look_up(written, &OF_JOINT, "a joint", at)?;
         let about = resolver.about(written, at)?;
-        let what = Asked::Joint(JointOutput { about, what });
-        Some((Quantity::OfForce { force, what }, unit))
+        let what = JointOutput { about, what };
+        Some((Quantity::of_force(force, what), unit))
+    }
+
+    fn direction(&self, asked: &dyn OfLaw) -> Measured {
+        asked
+            .get()
+            .map_or(Measured::Undirected, |asked: &JointOutput| {
+                Measured::About(self.child, asked.about, asked.side())
+            })
+    }
+}
+
+impl JointOutput {
+    /// The body whose load or motion the quantity is.
+    fn side(self) -> Side {
+        match self.what {
+            JointQuantity::Torque => Side::Load,
+            _ => Side::Motion,
+        }
     }
 }
 
@@ -94,8 +117,16 @@ impl Outputs for Freedom {
         let freedom = &element.joint.freedoms()[self.freedom];
         let table = &OF_LAW[usize::from(!freedom.kind.turns())];
         let (what, unit) = resolver.look_up(written, table, "the force of a freedom", at)?;
-        let what = Asked::Joint(JointOutput { about: 0, what });
-        Some((Quantity::OfForce { force, what }, unit))
+        let what = JointOutput { about: 0, what };
+        Some((Quantity::of_force(force, what), unit))
+    }
+
+    fn direction(&self, asked: &dyn OfLaw) -> Measured {
+        asked
+            .get()
+            .map_or(Measured::Undirected, |asked: &JointOutput| {
+                Measured::Freedom(self.child, self.freedom, asked.side())
+            })
     }
 }
 
@@ -125,8 +156,8 @@ pub struct JointMeasures<'g> {
 pub type AboutRotations<'g> = [Option<JointMeasures<'g>>; 5];
 
 impl<'g> Measures<'g> for AboutRotations<'g> {
-    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
-        let Asked::Joint(JointOutput { about, what }) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(JointOutput { about, what }) = asked.get() else {
             return None;
         };
         let measures = self[*about]?;

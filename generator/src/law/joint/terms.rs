@@ -1,7 +1,7 @@
 //! The terms of laws in a joint: of each rotation, of flexion and torsion, and of a freedom.
 
 use super::check::{Bending, Drive, Freedom, Joint, JointTorque, Lock, Order, Stop};
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{AXES, Field, Fresh, Part, Term, as_written};
 use crate::model::requirement::{Curves, List};
 use crate::model::rule::{Rule, Ruled};
@@ -13,7 +13,7 @@ const RETURNS: &str =
     "must be 0 at the neutral angle and push back to it everywhere, to have a hysteresis";
 
 impl Terms for Joint {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Joint {
             child,
             about,
@@ -42,7 +42,7 @@ impl Terms for Joint {
         }
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         let bent = self.bending.iter_mut();
         let bent = bent.flat_map(|b| [&mut b.flexion, &mut b.torsion]);
         self.about
@@ -89,7 +89,7 @@ impl Terms for Joint {
 }
 
 impl Terms for Freedom {
-    fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
         let Freedom {
             child,
             freedom: _,
@@ -99,7 +99,7 @@ impl Terms for Freedom {
         torque(law, "", "", fields);
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         self.law.settle();
     }
 

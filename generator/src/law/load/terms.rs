@@ -1,13 +1,13 @@
 //! The terms of a given load: the components of its force and its moment.
 
 use super::check::Load;
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{Field, Part, Term, attachment, components};
 use crate::model::rule::Rule;
 use crate::model::{Body, Dimension, FieldComponent, Number};
 
 impl Terms for Load {
-    fn fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Load { on, force, moment } = self;
         attachment(on, "at", fields);
         components(force, "force ", "force", dimension, fields);
@@ -22,7 +22,7 @@ impl Terms for Load {
         }
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         if !self.force.iter().any(Part::is_in) {
             self.on.at = [Number::ZERO; 3];
         }

@@ -5,8 +5,10 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Asked, Line, Look, Measures, OfLaw, Outputs, Value};
+use crate::law::{Measures, Value};
 use crate::model::Quantity;
+use crate::model::law::{OfLaw, Outputs};
+use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::output::has_direction;
 use serde::Serialize;
@@ -24,7 +26,11 @@ pub enum SpringQuantity {
     Rate,
 }
 
-impl OfLaw for SpringQuantity {}
+impl OfLaw for SpringQuantity {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+}
 
 const TABLE: [(&str, &str, SpringQuantity); 4] = [
     ("force", "N", SpringQuantity::Force),
@@ -47,7 +53,7 @@ impl Outputs for Spring {
             SpringQuantity::Force if has_direction(written) => {
                 resolver.force_on(written, force, [self.from.on, self.to.on], at)?
             }
-            what => resolver.scalar(force, Asked::Spring(what), at),
+            what => resolver.scalar(force, what, at),
         };
         Some((quantity, unit))
     }
@@ -77,8 +83,8 @@ impl<'g> Measures<'g> for SpringMeasures<'g> {
         vec![self.on_first]
     }
 
-    fn value(&self, asked: &Asked) -> Option<Value<'g>> {
-        let Asked::Spring(what) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(what) = asked.get::<SpringQuantity>() else {
             return None;
         };
         Some(Value::Scalar(match what {

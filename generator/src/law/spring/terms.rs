@@ -1,13 +1,13 @@
 //! The terms of a spring.
 
 use super::check::Spring;
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{Field, Term, attachment};
 use crate::model::rule::Rule;
 use crate::model::{Body, Dimension, Number};
 
 impl Terms for Spring {
-    fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
         let Spring {
             from,
             to,
@@ -27,7 +27,7 @@ impl Terms for Spring {
         fields.push(Field::Term(term("damping", "damping"), damping));
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         if self.elastic.is_none() {
             self.length = None;
         }

@@ -8,19 +8,19 @@ use crate::description::point::Point;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
 use crate::diagnostic::{Diagnostic, quoted};
+use crate::law::ForceKind;
 use crate::law::user::keys::{
     User as Written, UserFreedom as WrittenFreedom, UserLine as WrittenLine, UserPoint,
     UserState as WrittenState,
 };
+use crate::model::Joint;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::joint::freedom_named;
 use crate::model::resolve::name::{Style, identifier};
 use crate::model::resolve::quantity::{ANY, LENGTH, Measure, TIME};
 use crate::model::resolve::run::time;
 use crate::model::resolve::rust::{self, Fault, Place, Wanted};
-use crate::model::{
-    Attachment, Body, Dimension, ElementId, FieldComponent, ForceKind, Joint, Number, ScaledCurve,
-};
+use crate::model::{Attachment, Body, Dimension, ElementId, FieldComponent, Number, ScaledCurve};
 use serde::Serialize;
 use std::path::{Component, Path, PathBuf};
 
@@ -199,7 +199,7 @@ fn check_own_file(resolver: &Resolver<'_>, user: &User, at: At<'_>) {
     let others = resolver
         .forces
         .iter()
-        .filter_map(|force| match &force.kind {
+        .filter_map(|force| match ForceKind::of(force) {
             ForceKind::User(other) => Some(other),
             _ => None,
         });

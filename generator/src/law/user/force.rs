@@ -25,8 +25,9 @@ use crate::law::belt::force as belt;
 use crate::law::joint::force as joint;
 use crate::law::joint::force::Rotation;
 use crate::law::joint::{JointMeasures, Order};
+use crate::law::types::{User, UserFreedom, UserLine};
 use crate::law::{Equations, Measures, Setting};
-use crate::model::{Body, Dimension, ElementId, FieldComponent, User, UserFreedom, UserLine};
+use crate::model::{Body, Dimension, ElementId, FieldComponent};
 
 impl Equations for User {
     fn apply<'g>(

@@ -6,7 +6,7 @@ use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, Named, record};
-use crate::law::{ForceKind, Header, Keys, record};
+use crate::model::law::{Header, Keys, Law, record};
 use crate::model::resolve::Resolver;
 
 record! {
@@ -86,6 +86,7 @@ record! {
 impl Keys for User {
     const KEY: &'static str = "user";
     const HAS_PORTS: bool = true;
+    const SOURCE: Option<&'static str> = Some("source");
 
     fn header(&self) -> Header<'_> {
         Header {
@@ -97,8 +98,8 @@ impl Keys for User {
         }
     }
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<ForceKind> {
-        super::check::user(resolver, self, at).map(ForceKind::from)
+    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
+        super::check::user(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
     fn records() -> Vec<(&'static str, &'static [Key])> {

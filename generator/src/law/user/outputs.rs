@@ -7,7 +7,8 @@ use crate::diagnostic::{quoted, suggestion};
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::law::joint::JointMeasures;
-use crate::law::{Asked as OfForce, Measures, OfLaw, Outputs, Value};
+use crate::law::{Measures, Value};
+use crate::model::law::{OfLaw, Outputs};
 use crate::model::resolve::Resolver;
 use crate::model::{Body, Component, Projection, Quantity};
 use serde::Serialize;
@@ -40,6 +41,10 @@ pub enum UserQuantity {
 }
 
 impl OfLaw for UserQuantity {
+    fn boxed(&self) -> Box<dyn OfLaw> {
+        Box::new(*self)
+    }
+
     fn projection_mut(&mut self) -> Option<&mut Projection> {
         match self {
             UserQuantity::Force(_, projection) | UserQuantity::Moment(_, projection) => {
@@ -162,8 +167,8 @@ fn of_user(
     };
     resolver.without(at, &["at"], "a user force");
     let (what, unit) = user_quantity(resolver, written, user, what, index, at)?;
-    let what = OfForce::User(what);
-    Some((Quantity::OfForce { force, what }, unit))
+    let what = what;
+    Some((Quantity::of_force(force, what), unit))
 }
 
 /// The only port that has the quantity asked for; reports if there are several, or none.
@@ -306,8 +311,8 @@ pub struct LineMeasures<'g> {
 }
 
 impl<'g> Measures<'g> for UserMeasures<'g> {
-    fn value(&self, asked: &OfForce) -> Option<Value<'g>> {
-        let OfForce::User(what) = asked else {
+    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
+        let Some(what) = asked.get::<UserQuantity>() else {
             return None;
         };
         let joint = |joint: usize, about: usize| self.joints.get(joint)?.get(about).copied()?;

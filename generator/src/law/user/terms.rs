@@ -1,13 +1,13 @@
 //! The terms of a user force: its function.
 
 use super::check::{Port, User, UserFreedom, UserFunction, UserLine, UserParameter, UserState};
-use crate::law::Terms;
+use crate::model::law::Terms;
 use crate::model::part::{Field, Fresh, Part, Term, attachment};
 use crate::model::rule::{Key, Rule, Ruled};
 use crate::model::{Body, Dimension, Number, ScaledCurve};
 
 impl Terms for User {
-    fn fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
         let User {
             function,
             dimension: _,
@@ -50,7 +50,7 @@ impl Terms for User {
         fields.push(Field::Term(calls, function));
     }
 
-    fn settle(&mut self) {
+    fn settle_terms(&mut self) {
         for port in &mut self.function.parameters {
             if !port.value.value.is_in() {
                 port.value.value.leave_out();

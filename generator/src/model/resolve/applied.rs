@@ -7,36 +7,43 @@ use super::Resolver;
 use super::name::Style;
 use super::quantity::Expected;
 use super::switch::active;
+use crate::description::force::LawKeys;
 use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::quoted;
-use crate::law::{Header, Registered, Written};
+use crate::model::law::{Header, Law};
 use crate::model::{Bristle, Force, Friction, Number};
 
-/// Enters a force: its checked form, or the fact that it is switched off.
-pub(super) fn force(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) {
-    let Header {
-        name,
-        called,
-        enabled,
-        since,
-        until,
-    } = written.header();
-    let law = written.law();
-    let active = active(resolver, since, until, at);
-    let called = called
-        .is_none_or(|(key, name)| resolver.check_name(name, law.title, Style::Either, at.key(key)));
+/// Enters a force of the law with this key: its checked form, or the fact that it is switched off.
+pub(crate) fn force(
+    resolver: &mut Resolver<'_>,
+    key: &'static str,
+    header: &Header<'_>,
+    check: &dyn Fn(&mut Resolver<'_>, At<'_>) -> Option<Box<dyn Law>>,
+    at: At<'_>,
+) {
+    let mut laws = resolver.kinds.language.laws.iter();
+    let Some(keys) = laws.find(|law| law.key == key) else {
+        return;
+    };
+    let name = &header.name;
+    let active = active(resolver, header.since, header.until, at);
+    let called = header.called.is_none_or(|(key, name)| {
+        resolver.check_name(name, keys.title, Style::Either, at.key(key))
+    });
     if called {
-        check_twice(resolver, &name, law, at.key(law.key));
+        check_twice(resolver, name, keys, at.key(key));
     }
-    resolver.owner = format!("{} {name}", law.key);
-    let resolved = written.check(resolver, at.base());
-    let off = enabled == Some(false);
+    resolver.owner = format!("{key} {name}");
+    resolver.owners.push(resolver.owner.clone());
+    let resolved = check(resolver, at.base());
+    let off = header.enabled == Some(false);
     if off || resolved.is_none() {
-        resolver.disabled.push((law.key, name.clone()));
+        resolver.disabled.push((key, name.clone()));
     }
-    if let Some(kind) = resolved {
-        let force = Force { name, kind, active };
+    if let Some(law) = resolved {
+        let name = name.clone();
+        let force = Force { name, law, active };
         let curve = |index: usize| resolver.curves.get(index)?.as_ref().map(|m| &m.curve);
         resolver.judge(force.requirements(resolver.dimension(), &curve), at);
         let list = if off {
@@ -49,8 +56,8 @@ pub(super) fn force(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) 
 }
 
 /// Reports a force with the same name as another of the same law.
-fn check_twice(resolver: &Resolver<'_>, name: &str, law: &Registered, place: At<'_>) {
-    let same = resolver.forces.iter().filter(|f| f.kind.key() == law.key);
+fn check_twice(resolver: &Resolver<'_>, name: &str, law: &LawKeys, place: At<'_>) {
+    let same = resolver.forces.iter().filter(|f| f.law.key() == law.key);
     let off = resolver.disabled.iter().filter(|(key, _)| *key == law.key);
     let mut earlier = same
         .map(|f| f.name.as_str())

@@ -16,10 +16,10 @@ use crate::description::element::{Anatomy as Written, Direction, Neck};
 use crate::description::output::Output as WrittenOutput;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::law::joint::outputs::{JointOutput, JointQuantity};
+use crate::model::law::{Measured, OfLaw, Side};
 use crate::model::{
-    Asked, Body, Channel, Component, ElementId, ForceKind, JointLoadQuantity, Number,
-    PointQuantity, Projection, Quantity, RotationQuantity,
+    Body, Channel, Component, ElementId, JointLoadQuantity, Number, PointQuantity, Projection,
+    Quantity, RotationQuantity,
 };
 
 /// Smallest difference in height of two centres of gravity that decides which part is the upper one \[m\].
@@ -199,7 +199,7 @@ pub(super) fn channel(
         Quantity::Freedom {
             element, freedom, ..
         } => of_freedom(resolver, *element, *freedom, wanted)?,
-        Quantity::OfForce { force, what } => of_law(resolver, *force, what, wanted)?,
+        Quantity::OfForce { force, what } => of_law(resolver, *force, &**what, wanted)?,
         Quantity::Switch { .. } | Quantity::Formula(_) => false,
     };
     let remark = match &quantity {
@@ -440,42 +440,40 @@ fn of_freedom(
 }
 
 /// True if a quantity of a law has the opposite sign of that of the standard. False for a quantity without direction.
-fn of_law(resolver: &Resolver<'_>, force: usize, what: &Asked, wanted: Wanted<'_>) -> Option<bool> {
-    let Asked::Joint(JointOutput { about, what: asked }) = what else {
-        let Some(component) = what.component() else {
-            return Some(false);
-        };
-        projection_of(resolver, component, wanted)?;
-        return Some(
-            Anatomy::default()
-                .axis(component)
-                .is_some_and(|(_, back)| back),
-        );
-    };
-    let (child, back) = match &resolver.forces[force].kind {
-        ForceKind::Freedom(law) => {
-            let back = of_freedom(resolver, law.child, law.freedom, wanted)?;
-            (law.child, back)
+fn of_law(
+    resolver: &Resolver<'_>,
+    force: usize,
+    what: &dyn OfLaw,
+    wanted: Wanted<'_>,
+) -> Option<bool> {
+    let (child, back, side) = match resolver.forces[force].law.direction(what) {
+        Measured::Undirected => return Some(false),
+        Measured::Component(component) => {
+            projection_of(resolver, component, wanted)?;
+            let axis = Anatomy::default().axis(component);
+            return Some(axis.is_some_and(|(_, back)| back));
         }
-        ForceKind::Joint(law) => {
-            let component = match *about {
+        Measured::Freedom(child, freedom, side) => {
+            (child, of_freedom(resolver, child, freedom, wanted)?, side)
+        }
+        Measured::About(child, about, side) => {
+            let component = match about {
                 0 => Component::X,
                 1 => Component::Y,
                 2 => Component::Z,
                 _ => Component::Resultant,
             };
             projection_of(resolver, component, wanted)?;
-            let axes = anatomy(resolver, carrier(resolver, law.child));
+            let axes = anatomy(resolver, carrier(resolver, child));
             let (axis, back) = axes.axis(component)?;
-            if axis != *about {
+            if axis != about {
                 projection_of(resolver, Component::Resultant, wanted)?;
             }
-            (law.child, back)
+            (child, back, side)
         }
-        _ => return Some(false),
     };
-    match asked {
-        JointQuantity::Torque => Some(back == carried_is_upper(resolver, child, wanted)?),
-        _ => Some(back),
+    match side {
+        Side::Load => Some(back == carried_is_upper(resolver, child, wanted)?),
+        Side::Motion => Some(back),
     }
 }

@@ -12,7 +12,8 @@ use crate::description::joint::{
 };
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, Follows, Freedom, Joint, Number};
+use crate::model::{Element, Follows, Number};
+use crate::model::{Freedom, Joint};
 use std::collections::BTreeMap;
 
 /// A degree of freedom: its element, and its index in the joint of the element.

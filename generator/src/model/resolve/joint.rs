@@ -11,7 +11,8 @@ use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::description::shape::Shape;
 use crate::diagnostic::{nearest, quoted};
-use crate::model::{Coordinate, Freedom, FreedomKind, Joint, Number};
+use crate::model::{Coordinate, FreedomKind, Number};
+use crate::model::{Freedom, Joint};
 
 /// The largest number of degrees of freedom of one joint: those of a free body.
 const MOST: usize = 6;

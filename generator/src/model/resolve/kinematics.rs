@@ -2,8 +2,9 @@
 //!
 //! A = Rx(φ₁) Ry(φ₂) Rz(φ₃); in the plane φ₁ = φ₃ = 0 and Ry(φ) maps (x, z) to (x cos φ + z sin φ, −x sin φ + z cos φ).
 
+use crate::model::Joint;
 use crate::model::placement::placed;
-use crate::model::{Attachment, Body, Joint, Number, System, Vehicle};
+use crate::model::{Attachment, Body, Number, System, Vehicle};
 
 pub use crate::rotation::{IDENTITY, Matrix, Vector, apply, product, transpose};
 

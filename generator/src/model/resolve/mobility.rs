@@ -10,9 +10,10 @@ use super::kinematics::{
     IDENTITY, Matrix, Vector, apply, cross, plus, product, rotation, sum, times, transpose, values,
 };
 use super::regularity::{ROUNDING, general_angles};
+use crate::model::Joint;
 use crate::model::joint::{axes_of_rotation, directions};
 use crate::model::placement::{self, Column, placed};
-use crate::model::{Element, Joint, Number, Reference, System};
+use crate::model::{Element, Number, Reference, System};
 
 /// Matrix from motions to wrenches, linear components first.
 type Spatial = [[f64; 6]; 6];

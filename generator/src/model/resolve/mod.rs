@@ -37,6 +37,7 @@ mod units;
 mod vehicle;
 
 use self::surface::surface;
+use super::law::Registered;
 use super::{
     Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
     Parameter, Shown, Switch, System, Vehicle,
@@ -56,7 +57,6 @@ use crate::description::{
     load::Units as WrittenUnits,
 };
 use crate::diagnostic::{Diagnostics, quoted, suggestion};
-use crate::law::belt::check::check_belts;
 use crate::model::units::{Unit, UnitSystem, Units};
 use joint::{Spelling, Word};
 use name::Style;
@@ -66,7 +66,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The kinds of joints that the language knows, and how each is read. Whoever reads a model hands them in.
+/// The kinds of joints and the force laws that the language knows, and how each is read. Whoever reads a model hands them in.
 pub struct Kinds {
     /// The kinds as written.
     pub language: &'static Language,
@@ -74,6 +74,8 @@ pub struct Kinds {
     pub(crate) spellings: &'static [Spelling],
     /// The words for joints that need no keys.
     pub(crate) words: &'static [Word],
+    /// The force laws.
+    pub(crate) laws: &'static [Registered],
 }
 
 /// A model before and after normalisation.
@@ -85,6 +87,8 @@ pub struct Resolved {
     pub written: Model,
     /// The criteria by which a run is judged, if the text has any.
     pub criteria: Option<Criteria>,
+    /// The key of the law and the name of each force, in the order of the texts.
+    pub(crate) owners: Vec<String>,
 }
 
 /// Loads and resolves a model, with or without the Rust files of user forces. Returns the model and the loaded texts.
@@ -146,6 +150,10 @@ pub struct Resolver<'a> {
     /// The part of a human body that an element represents, if the text says so.
     pub(crate) parts: HashMap<ElementId, channel::BodyPart>,
     pub(crate) forces: Vec<Force>,
+    /// The places of these forces.
+    pub(crate) force_places: Vec<At<'a>>,
+    /// The key of the law and the name of each force, in the order of the texts.
+    pub(crate) owners: Vec<String>,
     /// Forces that are switched off or wrong: law and name.
     pub(crate) disabled: Vec<(&'static str, String)>,
     /// Those disabled forces that could be resolved.
@@ -183,6 +191,8 @@ impl<'a> Resolver<'a> {
             paths: Vec::new(),
             parts: HashMap::new(),
             forces: Vec::new(),
+            force_places: Vec::new(),
+            owners: Vec::new(),
             disabled: Vec::new(),
             off: Vec::new(),
             outputs: Vec::new(),
@@ -202,7 +212,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// The whole model; `None` if problems leave no useful model.
-    pub(crate) fn model(mut self, loaded: &Loaded) -> Option<Resolved> {
+    pub(crate) fn model(mut self, loaded: &'a Loaded) -> Option<Resolved> {
         let top = loaded.files.last()?.source.at();
         let header = &loaded.header;
         self.check_header(header, top);
@@ -225,7 +235,9 @@ impl<'a> Resolver<'a> {
         self.forget_consequences(loaded);
         if sound {
             check_regularity(&self, loaded);
-            check_belts(&self, loaded);
+            for (force, at) in self.forces.iter().zip(&self.force_places) {
+                force.law.check_start(&self, &force.name, *at);
+            }
         }
         let mut model = Model {
             name: header.model.clone(),
@@ -264,6 +276,7 @@ impl<'a> Resolver<'a> {
             model,
             written,
             criteria,
+            owners: self.owners,
         })
     }
 
@@ -344,7 +357,7 @@ impl<'a> Resolver<'a> {
     }
 
     /// Enters the forces, after a check of all surfaces, including those that no contact names.
-    fn enter_forces(&mut self, loaded: &Loaded) {
+    fn enter_forces(&mut self, loaded: &'a Loaded) {
         let mut shown = Vec::new();
         for file in &loaded.files {
             let at = file.source.at().key("surfaces");
@@ -355,11 +368,23 @@ impl<'a> Resolver<'a> {
         for file in &loaded.files {
             let at = file.source.at().key("forces");
             for (index, written) in file.contents.forces.iter().flatten().enumerate() {
-                applied::force(self, written, at.item(index));
+                let at = at.item(index);
+                let mut laws = self.kinds.laws.iter();
+                let law = laws.find(|law| written.0.get(law.keys.key).is_some());
+                let misfit = match law {
+                    Some(law) => (law.enter)(self, &written.0, at).err(),
+                    None => Some("the force has no kind".to_owned()),
+                };
+                self.force_places.resize(self.forces.len(), at);
+                if let Some(misfit) = misfit {
+                    // the shape was found to be right
+                    self.problems
+                        .add(at.problem(misfit, "see the reference of the language"));
+                }
             }
         }
         shown.retain(|shown| {
-            let mut looks = self.forces.iter().flat_map(|force| force.kind.looks());
+            let mut looks = self.forces.iter().flat_map(|force| force.law.looks());
             !looks.any(|look| shown.is_in(&look))
         });
         let fixed = shown.into_iter().map(|shown| shown.fixed(&self.defaults));

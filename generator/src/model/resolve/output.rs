@@ -6,11 +6,12 @@ use super::quantity::LENGTH;
 use super::units::unit_shown;
 use super::vehicle::vehicle_named;
 use super::{NOWHERE, Resolver};
+use crate::description::force::LawKeys;
 use crate::description::output::{Axis, Component as WrittenComponent, Output as Written};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::diagnostic::{nearest, quoted, suggestion};
-use crate::law::{Asked, LAWS, Registered};
+use crate::model::law::OfLaw;
 use crate::model::{
     Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Number, Output, PointQuantity,
     Projection, Quantity, Reference, RotationQuantity, SwitchQuantity, SystemQuantity,
@@ -244,7 +245,7 @@ impl Resolver<'_> {
     ) -> Option<(Quantity, &'static str)> {
         let subject = self.subject(written, at, off)?;
         if let Subject::Force(force) = subject {
-            return self.forces[force].kind.output(self, written, force, at);
+            return self.forces[force].law.output(self, written, force, at);
         }
         self.without(at, &["segment", "ring"], "anything but a belt");
         match subject {
@@ -326,7 +327,7 @@ impl Resolver<'_> {
     /// Reports a single word that names no system, vehicle or element.
     fn nothing_called(&self, name: &str, at: At<'_>) {
         let mut forces = self.forces.iter().filter(|f| f.name == name);
-        let force = forces.find(|f| observable().any(|law| law.key == f.kind.key()));
+        let force = forces.find(|f| self.observable().any(|law| law.key == f.law.key()));
         let element = self
             .paths
             .iter()
@@ -334,7 +335,7 @@ impl Resolver<'_> {
         let help = match (force, element) {
             (Some(force), _) => format!(
                 "did you mean {}?",
-                quoted(&format!("{} {name}", force.kind.key()))
+                quoted(&format!("{} {name}", force.law.key()))
             ),
             (_, Some(path)) => format!(
                 "elements are named with their system; did you mean {}?",
@@ -346,6 +347,12 @@ impl Resolver<'_> {
             .add(at.problem(format!("there is nothing called {}", quoted(name)), help));
     }
 
+    /// The laws that have outputs.
+    fn observable(&self) -> impl Iterator<Item = &'static LawKeys> + use<> {
+        let laws = self.kinds.language.laws.iter();
+        laws.filter(|law| law.is_observable)
+    }
+
     /// The force that `of` names, by its law and name.
     fn force_named(
         &self,
@@ -354,12 +361,12 @@ impl Resolver<'_> {
         at: At<'_>,
         off: bool,
     ) -> Option<usize> {
-        let Some(law) = observable().find(|law| law.key == kind) else {
-            let message = match LAWS.iter().find(|law| law.key == kind) {
+        let Some(law) = self.observable().find(|law| law.key == kind) else {
+            let message = match self.kinds.language.laws.iter().find(|law| law.key == kind) {
                 Some(law) => format!("{} is given and has no outputs", law.title),
                 None => format!("there is no output of {}", quoted(of)),
             };
-            let laws = observable().map(|law| law.key);
+            let laws = self.observable().map(|law| law.key);
             let near = nearest(kind, laws.chain(["system", "switch", "vehicle"]));
             let help = match near {
                 Some(near) => format!("did you mean \"{near} {name}\"?"),
@@ -376,7 +383,7 @@ impl Resolver<'_> {
         let found = self
             .forces
             .iter()
-            .position(|f| f.kind.key() == kind && f.name == name);
+            .position(|f| f.law.key() == kind && f.name == name);
         if found.is_none() {
             if self
                 .disabled
@@ -391,7 +398,7 @@ impl Resolver<'_> {
                     ));
                 }
             } else {
-                let names = self.forces.iter().filter(|f| f.kind.key() == kind);
+                let names = self.forces.iter().filter(|f| f.law.key() == kind);
                 let names: Vec<&str> = names.map(|f| f.name.as_str()).collect();
                 self.problems.add(at.problem(
                     format!("there is no {called} {} among the forces", quoted(name)),
@@ -722,9 +729,9 @@ impl Resolver<'_> {
     }
 
     /// A scalar quantity of a force; reports keys that ask for a direction.
-    pub(crate) fn scalar(&self, force: usize, what: Asked, at: At<'_>) -> Quantity {
+    pub(crate) fn scalar(&self, force: usize, what: impl OfLaw, at: At<'_>) -> Quantity {
         self.without(at, &["component", "axes", "on"], "a scalar");
-        Quantity::OfForce { force, what }
+        Quantity::of_force(force, what)
     }
 
     /// Reports keys that have no meaning for a law between bodies, which messages call `law`.
@@ -853,11 +860,6 @@ pub(crate) fn has_direction(written: &Written) -> bool {
         .is_some_and(|c| c.0 != WrittenComponent::Resultant)
         || written.axes.is_some()
         || written.on.is_some()
-}
-
-/// The laws that have outputs.
-fn observable() -> impl Iterator<Item = &'static Registered> {
-    LAWS.iter().filter(|law| law.is_observable)
 }
 
 const OF_HELP: &str = "name an element (`man/head`), a force (`joint man/head`, `contact seat`, `belt chest`, `user drag`) or a system (`man`)";

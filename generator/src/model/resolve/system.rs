@@ -17,7 +17,8 @@ use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
 };
 use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Element, Joint, Number, Reference, System};
+use crate::model::Joint;
+use crate::model::{Element, Number, Reference, System};
 
 /// Everything that the files say about a system: its description, and then changes of it.
 struct Entry<'w> {

@@ -3,7 +3,8 @@
 use super::expression::{Callee, ident, number};
 use super::user::Users;
 use crate::expression::{Function, Graph, Node, NodeId, UserCall, live::Live};
-use crate::model::{Extrapolate, ForceKind, Interpolate, Model};
+use crate::law::ForceKind;
+use crate::model::{Extrapolate, Interpolate, Model};
 use crate::names::{Names, screaming};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -214,7 +215,7 @@ impl Calls {
     /// Adds the curves that the user's functions look up.
     pub(crate) fn add_user(&mut self, model: &Model) {
         for force in &model.forces {
-            if let ForceKind::User(user) = &force.kind
+            if let ForceKind::User(user) = ForceKind::of(force)
                 && !user.function.name.is_empty()
             {
                 let curves = user

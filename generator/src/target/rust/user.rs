@@ -7,7 +7,9 @@
 use super::expression::ident;
 use super::items::INDICES;
 use super::library::{Calls, Library};
-use crate::model::{Dimension, ForceKind, Model, Port, User, UserSource};
+use crate::law::ForceKind;
+use crate::law::types::{Port, User, UserSource};
+use crate::model::{Dimension, Model};
 use crate::names::{Names, plain, snake};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -39,7 +41,7 @@ impl Users {
         let mut users = Users::default();
         let mut names = Names::with(&[&TAKEN[..], &INDICES].concat());
         for (index, force) in model.forces.iter().enumerate() {
-            let user = match &force.kind {
+            let user = match ForceKind::of(force) {
                 ForceKind::User(user) if !user.function.name.is_empty() => user,
                 _ => {
                     users.paths.push(String::new());
@@ -47,7 +49,7 @@ impl Users {
                 }
             };
             let same = users.modules.iter().find(|module| {
-                matches!(&model.forces[module.force].kind, ForceKind::User(other) if alike(other, user))
+                matches!(ForceKind::of(&model.forces[module.force]), ForceKind::User(other) if alike(other, user))
             });
             let name = match same {
                 Some(module) => module.name.clone(),
@@ -84,7 +86,7 @@ impl Users {
     pub(crate) fn text(&self, model: &Model, curves: &[String]) -> String {
         let mut text = String::new();
         for module in &self.modules {
-            if let ForceKind::User(user) = &model.forces[module.force].kind {
+            if let ForceKind::User(user) = ForceKind::of(&model.forces[module.force]) {
                 let interface = Interface { user, curves };
                 text.push('\n');
                 text.push_str(&interface.module(&module.name));
@@ -103,8 +105,8 @@ pub(crate) fn pasted(source: &UserSource) -> String {
 /// A Rust file for the user to begin with: the function of a user force that uses all its arguments, and returns zeros.
 /// `None` if there is no such force.
 pub fn skeleton(model: &Model, force: &str) -> Option<String> {
-    let user = model.forces.iter().find_map(|f| match &f.kind {
-        ForceKind::User(user) if f.name == force => Some(&**user),
+    let user = model.forces.iter().find_map(|f| match ForceKind::of(&f) {
+        ForceKind::User(user) if f.name == force => Some(user),
         _ => None,
     })?;
     let interface = Interface { user, curves: &[] };
@@ -154,7 +156,7 @@ pub fn apart(model: &Model) -> Option<Apart> {
     };
     let mut functions = Vec::new();
     for module in &users.modules {
-        let ForceKind::User(user) = &model.forces[module.force].kind else {
+        let ForceKind::User(user) = ForceKind::of(&model.forces[module.force]) else {
             continue;
         };
         let interface = Interface { user, curves: &[] };

@@ -37,8 +37,9 @@ use crate::dynamics::kinematics::Point;
 use crate::dynamics::numbers::{curve, inverse, number, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
+use crate::law::types::{Belt, BeltLength};
 use crate::law::{Equations, Measures, Setting};
-use crate::model::{Attachment, Belt, BeltLength, Model};
+use crate::model::{Attachment, Model};
 use ring::Ring;
 use webbing::{Limiter, NOISE, Webbing, webbing};
 

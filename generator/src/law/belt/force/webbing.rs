@@ -24,7 +24,8 @@ use crate::dynamics::numbers::{curve, derivative, inverse, number};
 use crate::dynamics::time;
 use crate::expression::{Expr, Function, Graph};
 use crate::law::belt::check::{RESISTANCE, SHORTEST};
-use crate::model::{Belt, Number};
+use crate::law::types::Belt;
+use crate::model::Number;
 
 /// Steps end at the kinks of the curve of a pretensioner if it has at most this many; a curve with more is treated as
 /// smooth.

@@ -22,8 +22,9 @@ use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose, point
 use crate::dynamics::numbers::{curve, derivative, number, vector};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
+use crate::law::types::{Against, Contact};
 use crate::law::{Equations, Measures, Setting};
-use crate::model::{Against, Contact, Dimension, EdgeRule, Plane};
+use crate::model::{Dimension, EdgeRule, Plane};
 use friction::{Rubbing, friction};
 use pair::on_ellipsoid;
 use std::rc::Rc;

@@ -10,7 +10,8 @@ use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::numbers::vector;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{ApproachCall, Expr, Function, Graph};
-use crate::model::{Attachment, Contact, Dimension, Ellipsoid, Number};
+use crate::law::types::Contact;
+use crate::model::{Attachment, Dimension, Ellipsoid, Number};
 
 /// Least squared distance of two centres \[m²\]. If they are closer, the line between them is divided by this distance.
 const SMALLEST_SQUARED_DISTANCE: f64 = 1e-20;

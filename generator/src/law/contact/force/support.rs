@@ -10,7 +10,8 @@ use crate::dynamics::kinematics::constant_rotation;
 use crate::dynamics::numbers::vector;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
-use crate::model::{Contact, Dimension};
+use crate::law::types::Contact;
+use crate::model::Dimension;
 
 /// The support of an ellipsoid in one direction.
 pub struct Support<'g> {

@@ -29,7 +29,7 @@ use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
 use crate::law::joint::JointMeasures;
-use crate::model::JointTorque;
+use crate::law::types::JointTorque;
 
 /// Lower bound of sin² β: the square of the rounding error of a unit vector.
 const SMALLEST_SINE_SQUARED: f64 = 1e-32;

@@ -11,7 +11,8 @@ use crate::dynamics::force::AppliedForces;
 use crate::dynamics::numbers::{curve, derivative, number};
 use crate::dynamics::time;
 use crate::expression::{Expr, Function, Graph};
-use crate::model::{Drive, FieldComponent};
+use crate::law::types::Drive;
+use crate::model::FieldComponent;
 
 /// The torque of a motor.
 pub fn motor<'g>(graph: &'g Graph, law: &FieldComponent) -> Expr<'g> {

@@ -34,12 +34,10 @@ use crate::dynamics::numbers::{curve, number};
 use crate::equations::NO_BEARING;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, sum};
-use crate::law::{Asked, Equations, Measures, Setting};
+use crate::law::types::{JointQuantity, JointTorque, Lock, Stop};
+use crate::law::{Equations, Measures, Setting};
 use crate::model::part::AXES;
-use crate::model::{
-    Body, Dimension, ElementId, JointQuantity, JointTorque, Lock, Model, Quantity, Reference,
-    ScaledCurve, Stop,
-};
+use crate::model::{Body, Dimension, ElementId, Model, Quantity, Reference, ScaledCurve};
 
 /// Lower bound of cos² θ₂.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;
@@ -266,10 +264,12 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     let outputs = outputs.flat_map(|output| output.quantity.leaves());
     let triggers = model.switches.iter().filter_map(|s| s.trigger.quantity());
     outputs.chain(triggers).any(|quantity| match quantity {
-        Quantity::OfForce {
-            force: f,
-            what: Asked::Joint(asked),
-        } => *f == force && asked.about == about && asked.what != JointQuantity::Torque,
+        Quantity::OfForce { force: f, what, .. } if *f == force => {
+            what.get()
+                .is_some_and(|asked: &crate::law::types::JointOutput| {
+                    asked.about == about && asked.what != JointQuantity::Torque
+                })
+        }
         _ => false,
     })
 }

@@ -1,8 +1,7 @@
 //! The visible parts of a law. Pictures, reports and animations use nothing else of it.
 
-use super::Asked;
-use super::types::Belt;
-use crate::model::{Attachment, Component, Plane, Projection, Quantity, Round, Shown};
+use super::law::{Law, OfLaw};
+use super::{Attachment, Component, Plane, Projection, Quantity, Round, Shown};
 
 /// A visible part of a law.
 #[derive(Clone, Debug)]
@@ -10,7 +9,7 @@ pub enum Look<'a> {
     /// An ellipsoid.
     Round(Round<'a>),
     /// A bag: its shape when full, and the output for the volume of its gas.
-    Bag(Round<'a>, Asked),
+    Bag(Round<'a>, Box<dyn OfLaw>),
     /// A plane, and the ellipsoid that meets it, if there is one.
     Plane(&'a Plane, Option<Round<'a>>),
     /// The force on the body of an ellipsoid. It acts at the deepest point of the ellipsoid behind the plane or,
@@ -23,8 +22,8 @@ pub enum Look<'a> {
 /// The kind of law that pulls along a line.
 #[derive(Clone, Copy, Debug)]
 pub enum Line<'a> {
-    /// A belt.
-    Belt(&'a Belt),
+    /// A belt, with its law.
+    Belt(&'a dyn Law),
     /// A spring.
     Spring,
     /// A bushing, from the origin of one frame to that of the other.
