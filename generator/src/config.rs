@@ -8,7 +8,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::law::ForceKind;
 use crate::model::{Coordinates, Dimension, Model};
 use crate::program::{self, Lists};
-use crate::target::{c, rust};
+use crate::target::{c, rust, summary};
 use crate::{Error, dynamics};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -135,7 +135,7 @@ impl Config {
         };
         let equations = dynamics::derive_with(model, options);
         let lists = program::lists(model, &equations, &self.options);
-        c::source(&lists, &program::header(model, &equations))
+        c::source(&lists, &summary::lines(model, &equations))
     }
 
     /// The methods of a model as lists, with the same operations as [`Self::source`], bit for bit.

@@ -12,9 +12,9 @@
 //! is a sum of products of body quantities, the effort is proportional to the number of elements, and there are no
 //! divisions: in double-double the residual is correct to 30 digits of its largest term.
 
-use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::{Body, ElementId, FieldComponent, Model, Number, Reference};
+use bryant_generator::motion::layout::{Layout, Orientation};
 use bryant_runtime::Real;
 
 use crate::bench::Trouble;

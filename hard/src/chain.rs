@@ -2,8 +2,8 @@
 
 use crate::random::Random;
 use crate::scene::Scene;
-use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::model::{ElementId, Model};
+use bryant_generator::motion::layout::{Layout, Orientation};
 use std::fmt::Write;
 
 /// An element of a chain.

@@ -1,13 +1,13 @@
 //! Random and regular trees, and random states of them: the same for the same seed.
 
 use crate::reference::element;
-use bryant_generator::dynamics::layout::{Layout, Orientation};
 use bryant_generator::expression::Function;
 use bryant_generator::law::types::Field;
 use bryant_generator::model::{
     Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, Joint, Model,
     Number, Reference, Run, System,
 };
+use bryant_generator::motion::layout::{Layout, Orientation};
 pub use bryant_hard::random::Random;
 
 /// The branching of a tree.

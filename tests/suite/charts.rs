@@ -1,10 +1,10 @@
 //! Bryant angles through their singularity: a change of chart affects only the coordinates.
 
-use bryant_generator::dynamics::chart::LIMIT;
 use bryant_generator::dynamics::derive;
-use bryant_generator::dynamics::layout::Layout;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::model::{Coordinates, Dimension, ElementId, Reference};
+use bryant_generator::motion::chart::LIMIT;
+use bryant_generator::motion::layout::Layout;
 use bryant_runtime::model::over;
 use bryant_runtime::simulate::{self, Method, Settings};
 use bryant_runtime::{

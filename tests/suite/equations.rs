@@ -1,7 +1,6 @@
 //! The equations against independent derivations and results.
 
 use bryant_generator::dynamics::lagrange::{NoLagrange, lagrange};
-use bryant_generator::dynamics::layout::Layout;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
@@ -12,6 +11,7 @@ use bryant_generator::model::{
     FieldComponent, Force, Model, Number, Output, Parameter, PointQuantity, Projection, Quantity,
     Reference, RotationQuantity,
 };
+use bryant_generator::motion::layout::Layout;
 use bryant_tests::reference::{ReferenceTree, load};
 use bryant_tests::trees::{
     Random, Shape, chain, choices, random_charts, random_state, random_tree,

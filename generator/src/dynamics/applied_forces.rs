@@ -8,11 +8,11 @@
 //!
 //! Systems with other joints get r_k from the [power of wrenches](super::spatial).
 
-use super::force::AppliedForces;
-use super::kinematics::{path, reference_acceleration};
 use super::spatial::{self, Spatial};
 use crate::expression::Expr;
+use crate::force::AppliedForces;
 use crate::model::ElementId;
+use crate::motion::kinematics::{path, reference_acceleration};
 
 /// r_k, by row.
 pub fn applied_forces<'g>(

@@ -7,11 +7,12 @@
 //! first moment, and J inertia about the joint. All three are constant in the frame of the element, in every motion.
 //! The equations use w = A b and A J Aᵀ in absolute axes.
 
-use super::kinematics::{Motion, children, constant_rotation, identifier, path};
-use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{Dimension, Element, ElementId, Model};
+use crate::motion::Motion;
+use crate::motion::kinematics::{children, constant_rotation, identifier, path};
+use crate::motion::numbers::{number, vector};
 
 /// One augmented body.
 pub struct AugmentedBody<'g> {

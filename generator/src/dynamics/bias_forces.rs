@@ -10,11 +10,11 @@
 //!
 //! Systems with other joints get r_s from the [recursive Newton–Euler algorithm](super::spatial).
 
-use super::kinematics::path;
 use super::spatial::{self, Spatial};
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
+use crate::motion::kinematics::path;
 
 /// r_s, by row.
 pub fn velocity_forces<'g>(

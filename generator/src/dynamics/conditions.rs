@@ -4,12 +4,12 @@
 //! The default values were checked by the same requirements when the description was read. The values of a run are
 //! checked before it begins.
 
-use super::kinematics::Motion;
-use super::numbers::number;
 use crate::equations::Condition;
 use crate::expression::{Expr, Graph};
 use crate::law::ForceKind;
 use crate::model::{Model, Number, Rule};
+use crate::motion::Motion;
+use crate::motion::numbers::number;
 
 /// The conditions that parameters decide, each once; `start` is the motion at the start of a run.
 pub fn of<'g>(graph: &'g Graph, model: &Model, start: &Motion<'g>) -> Vec<Condition> {

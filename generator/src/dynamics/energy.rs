@@ -7,12 +7,12 @@
 //! added, where M is the moment that the root's joint transmits. The drive of a vehicle overcomes the forces F on it
 //! and their moment M about its origin, with the power −F·ẋ − M·ω.
 
-use super::force::Product;
-use super::numbers::{number, vector};
 use super::outputs::Scene;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
+use crate::force::Product;
 use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
+use crate::motion::numbers::{number, vector};
 
 /// The kinetic energy T \[J\].
 pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {

@@ -10,9 +10,9 @@
 //! A pivot is the articulated inertia of its degree of freedom: the rest of S_ii when the degrees of freedom further
 //! out are free to move.
 
-use super::layout::Layout;
 use crate::expression::{Expr, Graph};
 use crate::model::{Dimension, Model, Number};
+use crate::motion::Layout;
 use std::ops::{Mul, Range, Sub};
 
 /// L D Lᵀ of a symmetric positive definite matrix.

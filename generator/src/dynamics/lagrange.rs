@@ -9,15 +9,17 @@
 //! against the prescribed acceleration, which the other routes count in r_k. Tests compare the equations with it, in
 //! the plane and with Bryant angles (where v = q̇ in either chart).
 
-use super::kinematics::constant_rotation;
-use super::layout::{Layout, Orientation};
-use super::numbers::{bryant, curve, number, vector};
-use super::{time, translation};
 use crate::expression::differentiate::{NotDifferentiable, differentiate_along, jacobian};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, NodeId, Symbol, graph::sum};
 use crate::model::{Element, ElementId, FieldComponent, Model, Reference, System, Vehicle};
 use crate::model::{Freedom, Joint};
+use crate::motion::Layout;
+use crate::motion::ball::Orientation;
+use crate::motion::kinematics::constant_rotation;
+use crate::motion::numbers::time;
+use crate::motion::numbers::{bryant, curve, number, vector};
+use crate::motion::translation;
 
 /// S and r_s by Lagrange's equations, over a graph of their own.
 pub struct Lagrange {

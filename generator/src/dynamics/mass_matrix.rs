@@ -9,11 +9,11 @@
 //!
 //! Systems with other joints get S from [composite bodies](super::spatial).
 
-use super::kinematics::path;
 use super::spatial::{self, Spatial};
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::ElementId;
+use crate::motion::kinematics::path;
 
 /// S by rows; `None` where the tree shows that the entry is 0 in every state.
 pub fn mass_matrix<'g>(systems: &[Spatial<'g, '_>], size: usize) -> Vec<Vec<Option<Expr<'g>>>> {

@@ -4,8 +4,8 @@
 //! |---|---|---|
 //! | S = Σ Jᵀ M J | mass matrix | `mass_matrix`, `spatial/mass_matrix` |
 //! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `bias_forces`, `spatial/inverse_dynamics` |
-//! | r_k | generalised applied forces | `applied_forces`, `spatial/inverse_dynamics`; the laws are in `force/` |
-//! | H = (s, e) | columns of a joint: motion subspace | `joint/` |
+//! | r_k | generalised applied forces | `applied_forces`, `spatial/inverse_dynamics`; the laws are in `law/` |
+//! | H = (s, e) | columns of a joint: motion subspace | `motion/` |
 //! | M, b, J | augmented body | `augmented` |
 //! | K, B, J | articulated inertia | `elimination/`, `spatial/articulated_body`, `link/` |
 //! | D = Hᵀ I H | joint-space inertia, I being the articulated one | `Ldl` of `factorization`, called from `elimination/`, `spatial/articulated_body`, `link/` |
@@ -22,49 +22,43 @@
 //! | space, quaternion | e_x, e_y, e_z |
 //! | space, Bryant | e_x, Rx e_y, Rx Ry e_z |
 //!
-//! Bryant angles are in one of two [charts](chart), which differ only in the order of the columns of A.
+//! Bryant angles are in one of two [charts](crate::motion::chart), which differ only in the order of the columns of A.
 //!
 //! Notation: m, g, I are mass, centre of gravity and inertia of an element; s is the place of a joint on its parent; A
 //! is the rotation local → absolute; u = A s; w = A b; γ(v) is the velocity-product (bias) acceleration of a vector
 //! fixed in an element; D(v) has the columns e_j × v.
 //!
-//! [axes]: kinematics::ElementMotion::axes
+//! [axes]: crate::motion::ElementMotion::axes
 
 mod applied_forces;
 pub mod augmented;
 mod bias_forces;
-pub mod chart;
+mod charts;
 mod conditions;
 mod curves_of_time;
 mod elimination;
 mod energy;
 mod factorization;
-pub mod force;
-pub mod kinematics;
 pub mod lagrange;
-pub mod layout;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod link;
 mod mass_matrix;
 mod momentum;
-pub(crate) mod numbers;
 mod outputs;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod spatial;
-pub(crate) mod translation;
-pub(crate) mod vehicle;
 
 use crate::equations::{Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
-use crate::expression::{Expr, Graph, NodeId, Symbol};
+use crate::expression::{Expr, Graph, NodeId};
+use crate::force::{self, AppliedForces};
+use crate::law;
 use crate::model::{Model, System};
+use crate::motion::{Layout, Motion, State};
 use augmented::{AugmentedTree, Omitted};
-use force::AppliedForces;
-use kinematics::{Motion, State};
-use layout::Layout;
 use outputs::Scene;
 use spatial::Spatial;
 
@@ -182,8 +176,8 @@ fn in_graph(
     if let Some(omitted) = omitted {
         omitted.omit(&mut trees);
     }
-    let charts = chart::memory(model, &layout, &started, &state);
-    let mut applied = force::applied_forces(graph, model, &motion, &start, charts);
+    let charts = charts::memory(model, &layout, &started, &state);
+    let mut applied = law::applied_forces(graph, model, &motion, &start, charts);
 
     let zero = graph.constant(0.0).id();
     let of_system = |(system, tree)| Spatial {
@@ -222,7 +216,7 @@ fn in_graph(
     let onsets = applied.onsets(graph);
     let curves = applied.curves(graph);
     let conditions = conditions::of(graph, model, &start);
-    let renewed = chart::renewed(graph, model, &layout, &motion, &state);
+    let renewed = charts::renewed(graph, model, &layout, &motion, &state);
     for (memory, chart) in applied.states.memory.iter_mut().zip(&renewed.charts) {
         memory.next = *chart;
     }
@@ -384,9 +378,4 @@ fn named(values: &[(String, Expr<'_>)]) -> Vec<Named> {
         value: value.id(),
     };
     values.iter().map(name).collect()
-}
-
-/// The time symbol.
-pub(crate) fn time(graph: &Graph) -> Expr<'_> {
-    graph.symbol(Symbol::Time)
 }

@@ -5,11 +5,11 @@
 //! elements, at r, and M moments. A force between two of their elements counts on both and cancels. Systems that are
 //! held or moved, vehicles and the absolute frame are outside.
 
-use super::numbers::{number, vector};
 use super::outputs::Scene;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
+use crate::motion::numbers::{number, vector};
 
 /// The systems whose reference joint is free and whose root turns freely.
 fn free(scene: &Scene<'_, '_>) -> Vec<usize> {

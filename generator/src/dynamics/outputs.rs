@@ -15,17 +15,18 @@
 //! × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
 use super::augmented::{own_inertia, rotated};
-use super::force::AppliedForces;
-use super::kinematics::{ElementMotion, Motion, reference_acceleration};
-use super::layout::{Layout, Orientation};
-use super::numbers::{arithmetic, number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::law::Value;
+use crate::force::AppliedForces;
+use crate::force::Value;
 use crate::model::{
     Body, Component, ElementId, FreedomQuantity, JointLoadQuantity, Leaf, Model, PointQuantity,
     Projection, Quantity, RotationQuantity, Switch, SwitchQuantity, SystemQuantity,
 };
+use crate::motion::ball::Orientation;
+use crate::motion::kinematics::reference_acceleration;
+use crate::motion::numbers::{arithmetic, number, vector};
+use crate::motion::{ElementMotion, Layout, Motion};
 
 /// The values of the model's outputs, in their order.
 pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {

@@ -5,16 +5,15 @@
 //! graph.
 
 use crate::dynamics::augmented::{AugmentedTree, constants};
-use crate::dynamics::force;
-use crate::dynamics::kinematics::{Motion, State, children};
-use crate::dynamics::layout::Layout;
 use crate::dynamics::{Options, derive_with};
 use crate::equations::Route;
 use crate::expression::live::Live;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Graph, Node, NodeId, Symbol};
-use crate::law::ForceKind;
+use crate::law::{self, ForceKind};
 use crate::model::{Dimension, ElementId, Model};
+use crate::motion::kinematics::children;
+use crate::motion::{Layout, Motion, State};
 
 /// The structural properties of a model.
 pub struct Structure {
@@ -124,7 +123,7 @@ fn felt<'g>(graph: &'g Graph, model: &Model, motion: &Motion<'g>, force: usize) 
         forces: vec![force.clone()],
         ..model.clone()
     };
-    let applied = force::applied_forces(graph, &alone, motion, motion, Vec::new());
+    let applied = law::applied_forces(graph, &alone, motion, motion, Vec::new());
     let systems = model.systems.iter().enumerate();
     let felt = systems.map(|(s, system)| {
         if !is_zero(&applied.wrenches.fields[s]) {

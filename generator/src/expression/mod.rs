@@ -15,5 +15,5 @@ pub mod print;
 mod properties;
 pub mod vector;
 
-pub use graph::{Expr, Graph, owner, sum};
+pub use graph::{Expr, Graph, choose, owner, sum};
 pub use node::{ApproachCall, Function, Node, NodeId, Symbol, UserCall};

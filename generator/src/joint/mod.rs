@@ -39,15 +39,11 @@
 //! and file there are no screws, and their keys are unknown. Pages and tests must be extended besides:
 //! `docs/reference.md`, `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
 
-pub(crate) mod ball;
-pub(crate) mod equations;
-pub(crate) mod free;
+mod ball;
 mod hinge;
 mod list;
-pub(crate) mod prescribed;
 mod screw;
 mod slider;
-pub(crate) mod twist;
 mod weld;
 
 use crate::description::joint::{JointKey, JointWord};

@@ -24,78 +24,50 @@ pub mod spring;
 pub mod user;
 
 use crate::description::force::LawKeys;
-use crate::dynamics::force::AppliedForces;
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::kinematics::Motion;
-use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Graph};
-use crate::model::law::{Keys, Law, OfLaw, Registered};
-use crate::model::{Force, Model, Projection};
+use crate::expression::Graph;
+use crate::force::{AppliedForces, Equations, Events, LawState, Setting, States, Wrenches};
+use crate::model::law::{Keys, Law, Registered};
+use crate::model::{Force, Model};
+use crate::motion::Motion;
 
-/// The equations of a law: it becomes forces and moments on bodies.
-pub trait Equations {
-    /// Applies the law to the bodies, and returns its measures.
-    fn apply<'g>(
-        &self,
-        setting: Setting<'_, 'g>,
-        applied: &mut AppliedForces<'g>,
-    ) -> Box<dyn Measures<'g> + 'g>;
-
-    /// An expression that must not be negative for the law to make sense in a run that starts with this motion, and its
-    /// text in messages.
-    fn condition<'g>(
-        &self,
-        _graph: &'g Graph,
-        _start: &Motion<'g>,
-        _name: &str,
-    ) -> Option<(String, Expr<'g>)> {
-        None
+/// The forces applied in a model in motion. `start` is the motion at the start of a run, which determines the lengths
+/// of belts. `charts` are the memories that come before those of force laws.
+pub fn applied_forces<'g>(
+    graph: &'g Graph,
+    model: &Model,
+    motion: &Motion<'g>,
+    start: &Motion<'g>,
+    charts: Vec<LawState<'g>>,
+) -> AppliedForces<'g> {
+    let mut applied = AppliedForces {
+        wrenches: Wrenches::none(graph, model),
+        states: States {
+            auxiliaries: Vec::new(),
+            memory: charts,
+            switches: Vec::new(),
+        },
+        events: Events::none(model),
+        works: Vec::new(),
+        measures: Vec::new(),
+    };
+    applied.declare_switches(graph, model);
+    for (index, force) in model.forces.iter().enumerate() {
+        graph.section(format!("{} {}", force.law.key(), force.name));
+        let setting = Setting {
+            graph,
+            model,
+            motion,
+            start,
+            index,
+            name: &force.name,
+            gate: applied.gate(force.active),
+        };
+        let measures = ForceKind::of(force)
+            .equations()
+            .apply(setting, &mut applied);
+        applied.measures.push(measures);
     }
-}
-
-/// The surroundings in which a law is applied.
-#[derive(Clone, Copy)]
-pub struct Setting<'a, 'g> {
-    /// The graph in which expressions are made.
-    pub graph: &'g Graph,
-    /// The whole model.
-    pub model: &'a Model,
-    /// The motion of the model.
-    pub motion: &'a Motion<'g>,
-    /// The motion of the model at the start of a run.
-    pub start: &'a Motion<'g>,
-    /// Index of the force in the model.
-    pub index: usize,
-    /// Name of the force.
-    pub name: &'a str,
-    /// Condition under which the force acts.
-    pub gate: Gate<'g>,
-}
-
-/// Expressions of the quantities of a law.
-pub trait Measures<'g> {
-    /// The force on each point of the law \[N\], for [`Quantity::ForceOn`] and [`Quantity::ForceOnPoints`].
-    fn on(&self) -> Vec<Vec3<'g>> {
-        Vec::new()
-    }
-
-    /// A quantity of the law.
-    fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>>;
-}
-
-/// The measures of a law without outputs.
-impl<'g> Measures<'g> for () {
-    fn value(&self, _: &dyn OfLaw) -> Option<Value<'g>> {
-        None
-    }
-}
-
-/// The value of a quantity of a law.
-pub enum Value<'g> {
-    /// A number.
-    Scalar(Expr<'g>),
-    /// A component, or the magnitude, of a vector in absolute axes.
-    Along(Projection, Vec3<'g>),
+    applied
 }
 
 /// Registers the laws, in the order of the reference page. For each: the folder, the struct of its keys, and the structs

@@ -8,4 +8,5 @@ pub mod aarch64;
 pub mod c;
 pub mod machine;
 pub mod rust;
+pub(crate) mod summary;
 pub mod x86_64;

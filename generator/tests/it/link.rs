@@ -2,8 +2,6 @@
 
 use crate::share::share;
 use bryant_generator::dynamics::augmented::AugmentedTree;
-use bryant_generator::dynamics::kinematics::{Motion, State};
-use bryant_generator::dynamics::layout::Layout;
 use bryant_generator::dynamics::link::frames::{
     Choice, Framed, ReferenceTurn, can_align, natural_axes,
 };
@@ -15,6 +13,7 @@ use bryant_generator::dynamics::{chart, force};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Expr, Function, Graph, NodeId};
 use bryant_generator::model::Model;
+use bryant_generator::motion::{Layout, Motion, State};
 use bryant_generator::read_str;
 use std::path::Path;
 

@@ -7,13 +7,13 @@
 //! products.
 
 use super::Body;
-use crate::dynamics::kinematics::constant_rotation;
-use crate::dynamics::layout::Orientation;
-use crate::dynamics::numbers::{number, rotation_of_scaled_quaternion, vector};
 use crate::expression::graph::sum;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
 use crate::model::Element;
+use crate::motion::ball::Orientation;
+use crate::motion::kinematics::constant_rotation;
+use crate::motion::numbers::{number, rotation_of_scaled_quaternion, vector};
 use std::array::from_fn;
 
 /// The constants of an element alone, without its children, if its geometry is known in numbers.

@@ -30,19 +30,19 @@ mod tip;
 
 use super::augmented::AugmentedTree;
 use super::factorization::Ldl;
-use super::force::{AppliedForces, Wrench};
-use super::kinematics::{
-    ElementMotion, Motion, identifier, inverse_rates, path, reference_acceleration,
-};
-use super::layout::{Layout, Orientation};
 use super::link as link_frames;
-use super::numbers::vector;
 use super::spatial::{self, Spatial};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph, Symbol};
+use crate::force::{AppliedForces, Wrench};
 use crate::model::{Dimension, Element, ElementId, Model};
+use crate::motion::ball::Orientation;
+use crate::motion::kinematics::{identifier, path, reference_acceleration};
+use crate::motion::numbers::inverse_rates;
+use crate::motion::numbers::vector;
+use crate::motion::{ElementMotion, Layout, Motion};
 use absolute::Absolute;
 use link::Link;
 use tip::Tip;

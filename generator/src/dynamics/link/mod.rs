@@ -37,13 +37,14 @@ mod turn;
 mod wrench;
 
 use super::factorization;
-use super::force::AppliedForces;
-use super::kinematics::{inverse_rates, reference_acceleration};
-use super::layout::Orientation;
 use super::spatial::Spatial;
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, Symbol};
+use crate::force::AppliedForces;
+use crate::motion::ball::Orientation;
+use crate::motion::kinematics::reference_acceleration;
+use crate::motion::numbers::inverse_rates;
 use body::Body;
 use elimination::Solved;
 use frames::{Choice, Framed, natural_axes};

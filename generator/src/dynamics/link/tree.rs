@@ -6,15 +6,15 @@
 use super::articulated::Articulated;
 use super::body::Body;
 use crate::dynamics::augmented::own_inertia;
-use crate::dynamics::force::AppliedForces;
-use crate::dynamics::kinematics::reference_acceleration;
-use crate::dynamics::numbers::{number, vector};
 use crate::dynamics::spatial::{Spatial, Wrench};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::joint::twist::turn_and_advance;
+use crate::force::AppliedForces;
 use crate::model::Joint;
 use crate::model::{Dimension, Reference};
+use crate::motion::kinematics::reference_acceleration;
+use crate::motion::numbers::{number, vector};
+use crate::motion::twist::turn_and_advance;
 
 /// A system as links; parents come first.
 pub struct Tree<'g> {

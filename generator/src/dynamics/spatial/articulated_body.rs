@@ -18,11 +18,12 @@
 
 use super::{Column, Spatial, Wrench};
 use crate::dynamics::factorization::Ldl;
-use crate::dynamics::force::AppliedForces;
-use crate::dynamics::kinematics::{inverse_rates, reference_acceleration};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Symbol};
+use crate::force::AppliedForces;
 use crate::model::Dimension;
+use crate::motion::kinematics::reference_acceleration;
+use crate::motion::numbers::inverse_rates;
 
 /// The articulated inertia and bias of the bodies outboard of a joint, about the origin of its element.
 #[derive(Clone, Copy)]

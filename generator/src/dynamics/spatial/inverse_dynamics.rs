@@ -2,10 +2,10 @@
 //! wrench that it and the elements that it carries need, and each velocity takes the power of that wrench.
 
 use super::{Spatial, Wrench};
-use crate::dynamics::force::AppliedForces;
-use crate::dynamics::kinematics::reference_acceleration;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
+use crate::force::AppliedForces;
+use crate::motion::kinematics::reference_acceleration;
 
 /// Sets the rows of r_s of the system: minus the forces that the bodies need when v̇ = 0 and no force acts.
 pub fn velocity_forces<'g>(spatial: &Spatial<'g, '_>, forces: &mut [Expr<'g>]) {

@@ -26,21 +26,22 @@ mod articulated_body;
 mod inverse_dynamics;
 mod mass_matrix;
 
+use crate::motion::{ElementMotion, Layout, Motion};
 pub use articulated_body::accelerations;
 pub use inverse_dynamics::{applied_forces, velocity_forces};
 pub use mass_matrix::mass_matrix;
 
 use super::factorization;
-use super::force::AppliedForces;
+use crate::force::AppliedForces;
 
 use super::augmented::{AugmentedBody, AugmentedTree, with_points};
-use super::kinematics::{ElementMotion, Motion, identifier, path};
-use super::layout::{Layout, Orientation};
-use super::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::Joint;
 use crate::model::{ElementId, Model, System};
+use crate::motion::ball::Orientation;
+use crate::motion::kinematics::{identifier, path};
+use crate::motion::numbers::number;
 use std::ops::Range;
 
 /// A system in motion.

@@ -22,19 +22,22 @@
 
 use super::check::FOLDED;
 use super::outputs::AirbagMeasures;
-use crate::dynamics::force::onset::{Pair, absolute};
-use crate::dynamics::force::switch::{Gate, Remembered};
-use crate::dynamics::force::{AppliedForces, Motion, Product, choose};
-use crate::dynamics::numbers::{curve, number, vector};
-use crate::dynamics::time;
 use crate::equations::LEAST_VOLUME;
+use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
+use crate::force::onset::absolute;
+use crate::force::switch::{Gate, Remembered};
+use crate::force::{AppliedForces, Product};
+use crate::force::{Equations, Measures, Setting};
 use crate::law::contact::force::pair::{direction, on_ellipsoid};
 use crate::law::contact::force::{Touch, begins};
+use crate::law::contact::onset::Pair;
 use crate::law::types::{Against, Airbag, Contact, Inflow};
-use crate::law::{Equations, Measures, Setting};
 use crate::model::{Ellipsoid, Model};
+use crate::motion::Motion;
+use crate::motion::numbers::time;
+use crate::motion::numbers::{curve, number, vector};
 use std::f64::consts::PI;
 
 /// ψ₀²

@@ -5,7 +5,7 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Measures, Value};
+use crate::force::{Measures, Value};
 use crate::model::law::{OfLaw, Outputs};
 use crate::model::look::Look;
 use crate::model::resolve::Resolver;

@@ -6,7 +6,7 @@ use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::law::{Measures, Value};
+use crate::force::{Measures, Value};
 use crate::model::law::{OfLaw, Outputs};
 use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;

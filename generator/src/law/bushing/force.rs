@@ -26,15 +26,16 @@
 
 use super::check::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
-use crate::dynamics::force::{Acts, AppliedForces, Product, choose};
-use crate::dynamics::kinematics::constant_rotation;
-use crate::dynamics::numbers::{curve, number};
 use crate::equations::NO_BEARING;
 use crate::expression::Expr;
+use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
+use crate::force::{Acts, AppliedForces, Product};
+use crate::force::{Equations, Measures, Setting};
 use crate::law::joint::force::{bryant, bryant_bearing, bryant_half_turn};
-use crate::law::{Equations, Measures, Setting};
 use crate::model::Dimension;
+use crate::motion::kinematics::constant_rotation;
+use crate::motion::numbers::{curve, number};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 

@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod force;
 pub mod keys;
+pub(crate) mod onset;
 pub(crate) mod outputs;
 pub(crate) mod terms;
 

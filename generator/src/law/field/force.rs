@@ -4,10 +4,10 @@
 //! joint.
 
 use super::check::Field;
-use crate::dynamics::force::{AppliedForces, Product, components};
-use crate::dynamics::numbers::{number, vector};
-use crate::law::{Equations, Measures, Setting};
+use crate::force::{AppliedForces, Product, components};
+use crate::force::{Equations, Measures, Setting};
 use crate::model::{Body, ElementId};
+use crate::motion::numbers::{number, vector};
 
 impl Equations for Field {
     fn apply<'g>(

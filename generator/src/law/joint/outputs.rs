@@ -4,7 +4,7 @@ use super::check::{Freedom, Joint};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
-use crate::law::{Measures, Value};
+use crate::force::{Measures, Value};
 use crate::model::Quantity;
 use crate::model::law::{Measured, OfLaw, Outputs, Side};
 use crate::model::resolve::Resolver;

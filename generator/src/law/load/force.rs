@@ -1,8 +1,8 @@
 //! A given force at a point of an element, and a given moment, in absolute axes.
 
 use super::check::Load;
-use crate::dynamics::force::{AppliedForces, Product, components};
-use crate::law::{Equations, Measures, Setting};
+use crate::force::{AppliedForces, Product, components};
+use crate::force::{Equations, Measures, Setting};
 
 impl Equations for Load {
     fn apply<'g>(

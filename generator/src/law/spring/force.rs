@@ -5,11 +5,11 @@
 
 use super::check::Spring;
 use super::outputs::SpringMeasures;
-use crate::dynamics::force::{Acts, AppliedForces, Product};
-use crate::dynamics::kinematics::Motion;
-use crate::dynamics::numbers::{curve, number};
+use crate::force::{Acts, AppliedForces, Product};
+use crate::force::{Equations, Measures, Setting};
 use crate::law::belt::force::length;
-use crate::law::{Equations, Measures, Setting};
+use crate::motion::Motion;
+use crate::motion::numbers::{curve, number};
 
 impl Equations for Spring {
     fn apply<'g>(

@@ -15,19 +15,19 @@
 //! Vectors are in absolute axes; n_i are the directions of [joints](crate::law::joint::force). Power: F·v, M·ω, −T L̇, Q·θ̇, Q q̇.
 
 use super::outputs::{LineMeasures, UserMeasures};
-use crate::dynamics::force::{AppliedForces, Product};
-use crate::dynamics::kinematics::Point;
-use crate::dynamics::numbers::{curve, number};
-use crate::dynamics::time;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, UserCall};
+use crate::force::{AppliedForces, Product};
+use crate::force::{Equations, Measures, Setting};
 use crate::law::belt::force as belt;
 use crate::law::joint::force as joint;
 use crate::law::joint::force::Rotation;
 use crate::law::joint::{JointMeasures, Order};
 use crate::law::types::{User, UserFreedom, UserLine};
-use crate::law::{Equations, Measures, Setting};
 use crate::model::{Body, Dimension, ElementId, FieldComponent};
+use crate::motion::Point;
+use crate::motion::numbers::time;
+use crate::motion::numbers::{curve, number};
 
 impl Equations for User {
     fn apply<'g>(

@@ -4,12 +4,12 @@ use super::method::Function;
 use super::operations;
 use crate::equations::Equations;
 use crate::model::Model;
-use crate::program;
+use crate::target::summary;
 
 /// The comment at the top of a module. It ends in a newline.
 pub(crate) fn header(model: &Model, equations: &Equations, functions: &[Function]) -> String {
     let mut text = String::new();
-    for said in program::header(model, equations) {
+    for said in summary::lines(model, equations) {
         line(&mut text, said);
     }
     operations::tables(&mut text, equations, functions);

@@ -12,11 +12,11 @@
 //! A segment has run out at ℓ ≤ ℓ_e: no more webbing slips out of it. From 2 ℓ_e down to ℓ_e the slip slows down.
 
 use super::{Law, Segment};
-use crate::dynamics::force::{AppliedForces, Product};
-use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Function, Graph};
+use crate::force::{AppliedForces, Product};
 use crate::law::belt::check::RUN_OUT;
 use crate::law::belt::outputs::SegmentMeasures;
+use crate::motion::numbers::number;
 
 /// Lower bound of sin² θ under the root, whose slope is infinite at 0.
 const SMALLEST_SQUARE: f64 = 1e-24;

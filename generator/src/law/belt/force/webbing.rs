@@ -18,14 +18,15 @@
 //! because the webbing no longer lengthens, L̇ + (1 + ε_F) (ṙ + ṡ − ẏ) = 0.
 
 use super::Law;
-use crate::dynamics::force::switch::Remembered;
-use crate::dynamics::force::{Acts, AppliedForces, choose};
-use crate::dynamics::numbers::{curve, derivative, inverse, number};
-use crate::dynamics::time;
+use crate::expression::choose;
 use crate::expression::{Expr, Function, Graph};
+use crate::force::switch::Remembered;
+use crate::force::{Acts, AppliedForces};
 use crate::law::belt::check::{RESISTANCE, SHORTEST};
 use crate::law::types::Belt;
 use crate::model::Number;
+use crate::motion::numbers::time;
+use crate::motion::numbers::{curve, derivative, inverse, number};
 
 /// Steps end at the kinks of the curve of a pretensioner if it has at most this many; a curve with more is treated as
 /// smooth.

@@ -17,12 +17,12 @@
 //!
 //! so the force acts at the centre, with a moment E ∂w/∂ξ_i m_i, which is 0 for a sphere.
 
-use crate::dynamics::force::choose;
-use crate::dynamics::force::{AppliedForces, Product};
-use crate::dynamics::numbers::number;
+use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
+use crate::force::{AppliedForces, Product};
 use crate::model::{EdgeRule, Extent};
+use crate::motion::numbers::number;
 
 /// The weight on a contact's force, and where the deepest point is relative to the edges.
 pub struct Weight<'g> {

@@ -16,11 +16,11 @@
 //! decays.
 
 use super::{AppliedForces, Product, Touch};
-use crate::dynamics::force::choose;
-use crate::dynamics::numbers::number;
+use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, sum};
 use crate::model::{Dimension, Friction, Number};
+use crate::motion::numbers::number;
 
 /// The result of friction.
 pub struct Rubbing<'g> {

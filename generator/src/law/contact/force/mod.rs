@@ -14,17 +14,19 @@ pub(crate) mod pair;
 mod support;
 
 use super::outputs::ContactMeasures;
-use crate::dynamics::force::fade::faded;
-use crate::dynamics::force::hysteresis;
-use crate::dynamics::force::onset::Pair;
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose, point_on};
-use crate::dynamics::numbers::{curve, derivative, number, vector};
+use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
+use crate::force::fade::faded;
+use crate::force::hysteresis;
+use crate::force::switch::Gate;
+use crate::force::{Acts, AppliedForces, Product, point_on};
+use crate::force::{Equations, Measures, Setting};
+use crate::law::contact::onset::Pair;
 use crate::law::types::{Against, Contact};
-use crate::law::{Equations, Measures, Setting};
 use crate::model::{Dimension, EdgeRule, Plane};
+use crate::motion::Motion;
+use crate::motion::numbers::{curve, derivative, number, vector};
 use friction::{Rubbing, friction};
 use pair::on_ellipsoid;
 use std::rc::Rc;
@@ -130,7 +132,9 @@ fn apply<'g>(
     if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
         // beyond the edge there is no force, not even NaN where a curve has no value
-        if applied.may_end(contact) {
+        let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
+        let curves = [Some(&contact.elastic), unloading].into_iter().flatten();
+        if curves.flatten().any(|curve| applied.ends(curve)) {
             let zero = graph.constant(0.0);
             pressure = choose(zero, weight.weight, pressure, zero);
             stored = choose(zero, weight.weight, stored, zero);

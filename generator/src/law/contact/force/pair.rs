@@ -5,13 +5,15 @@
 //! always. The deepest points c₁ + u₁ and c₂ − u₂, u = Q n/h, lie δ n apart, and forces act half-way between them. As δ
 //! is a minimum, its rate does not depend on that of n: δ̇ = n·(v₁ − v₂), taken at either point or between them.
 
-use super::{Motion, Touch, choose};
-use crate::dynamics::kinematics::constant_rotation;
-use crate::dynamics::numbers::vector;
+use super::Touch;
+use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{ApproachCall, Expr, Function, Graph};
 use crate::law::types::Contact;
 use crate::model::{Attachment, Dimension, Ellipsoid, Number};
+use crate::motion::Motion;
+use crate::motion::kinematics::constant_rotation;
+use crate::motion::numbers::vector;
 
 /// Least squared distance of two centres \[m²\]. If they are closer, the line between them is divided by this distance.
 const SMALLEST_SQUARED_DISTANCE: f64 = 1e-20;

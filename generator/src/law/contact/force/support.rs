@@ -5,13 +5,13 @@
 //! A = R diag(a²) Rᵀ. For a degree other than 2, h is the dual norm of the ellipsoid's equation:
 //! `force::ellipsoid::support`.
 
-use super::Motion;
-use crate::dynamics::kinematics::constant_rotation;
-use crate::dynamics::numbers::vector;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
 use crate::law::types::Contact;
 use crate::model::Dimension;
+use crate::motion::Motion;
+use crate::motion::kinematics::constant_rotation;
+use crate::motion::numbers::vector;
 
 /// The support of an ellipsoid in one direction.
 pub struct Support<'g> {

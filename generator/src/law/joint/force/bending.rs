@@ -21,15 +21,16 @@
 //! through β = π reports it by means of the [bearing].
 
 use super::{Rotation, elastic_torque, stop, stop_kinks};
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{AppliedForces, Product, choose};
-use crate::dynamics::kinematics::ElementMotion;
-use crate::dynamics::numbers::number;
 use crate::equations::NO_BEARING;
+use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
+use crate::force::switch::Gate;
+use crate::force::{AppliedForces, Product};
 use crate::law::joint::JointMeasures;
 use crate::law::types::JointTorque;
+use crate::motion::ElementMotion;
+use crate::motion::numbers::number;
 
 /// Lower bound of sin² β: the square of the rounding error of a unit vector.
 const SMALLEST_SINE_SQUARED: f64 = 1e-32;

@@ -7,12 +7,12 @@
 //! | drive | k (c(t) − θ) + d (ċ(t) − θ̇), limited to ± the largest torque |
 
 use super::Rotation;
-use crate::dynamics::force::AppliedForces;
-use crate::dynamics::numbers::{curve, derivative, number};
-use crate::dynamics::time;
 use crate::expression::{Expr, Function, Graph};
+use crate::force::AppliedForces;
 use crate::law::types::Drive;
 use crate::model::FieldComponent;
+use crate::motion::numbers::time;
+use crate::motion::numbers::{curve, derivative, number};
 
 /// The torque of a motor.
 pub fn motor<'g>(graph: &'g Graph, law: &FieldComponent) -> Expr<'g> {

@@ -16,7 +16,7 @@
 //!
 //! At a depth δ > 0 behind a stop, N = max(0, k δ + d min(δ/fade, 1) δ̇) pushes back. A lock pulls with −k (θ − θ_l) −
 //! d θ̇ to the angle θ_l, which is remembered from the moment when its switch began to act. [Friction](sticking),
-//! [motors and drives](drive), and [the hysteresis](crate::dynamics::force::hysteresis) of elastic curves have files of
+//! [motors and drives](drive), and [the hysteresis](crate::force::hysteresis) of elastic curves have files of
 //! their own.
 
 mod bending;
@@ -25,19 +25,21 @@ mod sticking;
 
 use super::check::{Freedom, Joint, Order};
 use super::outputs::{AboutRotations, JointMeasures};
-use crate::dynamics::force::fade::faded;
-use crate::dynamics::force::hysteresis;
-use crate::dynamics::force::onset::{Onset, absolute};
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::force::{Acts, AppliedForces, Motion, Product, choose};
-use crate::dynamics::numbers::{curve, number};
 use crate::equations::NO_BEARING;
+use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph, sum};
+use crate::force::fade::faded;
+use crate::force::hysteresis;
+use crate::force::onset::{Onset, absolute};
+use crate::force::switch::Gate;
+use crate::force::{Acts, AppliedForces, Product};
+use crate::force::{Equations, Measures, Setting};
 use crate::law::types::{JointQuantity, JointTorque, Lock, Stop};
-use crate::law::{Equations, Measures, Setting};
 use crate::model::part::AXES;
 use crate::model::{Body, Dimension, ElementId, Model, Quantity, Reference, ScaledCurve};
+use crate::motion::Motion;
+use crate::motion::numbers::{curve, number};
 
 /// Lower bound of cos² θ₂.
 const SMALLEST_COSINE_SQUARED: f64 = 1e-12;

@@ -12,11 +12,11 @@
 //! always. While the force waits for a switch, the bristle straightens.
 
 use super::Rotation;
-use crate::dynamics::force::AppliedForces;
-use crate::dynamics::force::switch::Gate;
-use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Function};
+use crate::force::AppliedForces;
+use crate::force::switch::Gate;
 use crate::model::{Bristle, Friction};
+use crate::motion::numbers::number;
 
 /// The torque of friction.
 pub fn friction<'g>(

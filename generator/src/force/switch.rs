@@ -8,12 +8,13 @@
 //! definition. A switch fires only once; afterwards its event function stays at 1.
 
 use super::onset::{FAR, Onset};
-use super::{AppliedForces, NEVER, choose};
-use crate::dynamics::numbers::number;
-use crate::dynamics::time;
+use super::{AppliedForces, NEVER};
+use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph, Symbol};
 use crate::model::{Active, Model, Trigger};
+use crate::motion::numbers::number;
+use crate::motion::numbers::time;
 
 /// The border between times that have come and [`NEVER`] \[s\].
 const EVER: f64 = 0.5 * NEVER;

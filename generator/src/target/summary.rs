@@ -1,12 +1,11 @@
-//! Describes a model in lines of text: its tree, coordinates and effects. Targets put these lines at the top of their
-//! output.
+//! A model in lines of text: its tree, its coordinates and its effects. They stand at the top of the output.
 
 use crate::equations::Equations;
 use crate::model::{Dimension, Model, Reference, System};
 use crate::names::plain;
 
 /// The description of a model, as lines: its tree, its coordinates, its effects.
-pub fn header(model: &Model, equations: &Equations) -> Vec<String> {
+pub(crate) fn lines(model: &Model, equations: &Equations) -> Vec<String> {
     let mut text = Vec::new();
     let version = env!("CARGO_PKG_VERSION");
     let name = plain(&model.name);

@@ -13,8 +13,8 @@
 //! s q̇ moves the origin p_end of the element relative to the carrier, and e q̇ turns it. The sums in ε and γ give Ḣ v. A degree of freedom does
 //! not change its own axis.   \[Featherstone 2008, ch. 3\]
 
-use crate::dynamics::kinematics::ElementMotion;
-use crate::dynamics::numbers::{number, vector};
+use super::element::ElementMotion;
+use super::numbers::{number, vector};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::Freedom;

@@ -141,3 +141,21 @@ pub fn rotation_of_scaled_quaternion<'g>(
         [xz - wy, yz + wx, one - (xx + yy)],
     ])
 }
+
+/// W⁻¹ ν with W = \[e_x, second, third\]. It gives φ̈ from α − ε, or φ̇ from ω. W is singular where cos φ₂ = 0.
+pub fn inverse_rates<'g>(
+    second: Vec3<'g>,
+    third: Vec3<'g>,
+    cosine_of_second_angle: Expr<'g>,
+    nu: Vec3<'g>,
+) -> [Expr<'g>; 3] {
+    let [_, c1, s1] = second.0;
+    let [x, y, z] = nu.0;
+    let rate_3 = (c1 * z - s1 * y) / cosine_of_second_angle;
+    [x - third.0[0] * rate_3, c1 * y + s1 * z, rate_3]
+}
+
+/// The time symbol.
+pub(crate) fn time(graph: &Graph) -> Expr<'_> {
+    graph.symbol(Symbol::Time)
+}

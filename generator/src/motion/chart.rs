@@ -9,15 +9,13 @@
 //! another order.
 //!
 //! The chart is a discrete state, constant during a step, so all stages of a step, its error and its interpolant use
-//! one chart. After an accepted step, [`renewed`] gives the new q, v and c.
+//! one chart. After an accepted step, [`changed`] gives the new φ, φ̇ and c of an element.
 
-use super::force::{LawState, choose};
-use super::kinematics::{Motion, State, inverse_rates};
-use super::layout::{Layout, Orientation};
 use super::numbers::bryant;
+use super::numbers::inverse_rates;
+use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
-use crate::model::{ElementId, Model};
 
 /// The |sin φ₂| beyond which the chart changes. It is then at most 0.6 in the new chart, so a body turns by at least
 /// 16° before the chart changes again. Rates are divided by cos φ₂, which is never below 0.6 where a step begins.
@@ -63,78 +61,11 @@ pub fn start<'g>(graph: &'g Graph, angles: [Expr<'g>; 3], omega: Vec3<'g>) -> Ch
     changed(&charted, &r, omega)
 }
 
-/// q, v and the charts after the discrete update that follows an accepted step.
-pub fn renewed<'g>(
-    graph: &'g Graph,
-    model: &Model,
-    layout: &Layout,
-    motion: &Motion<'g>,
-    state: &State<'g>,
-) -> State<'g> {
-    let mut renewed = State {
-        q: state.q.clone(),
-        v: state.v.clone(),
-        charts: state.charts.clone(),
-    };
-    if layout.orientation != Orientation::Bryant {
-        return renewed;
-    }
-    for (s, system) in model.systems.iter().enumerate() {
-        for (element, name) in system.elements.iter().map(|e| &e.name).enumerate() {
-            let id = ElementId { system: s, element };
-            graph.section(format!("element {name}: chart"));
-            let (q, v) = (
-                layout.element_coordinates(id).start,
-                layout.element_velocities(id).start,
-            );
-            let Some(chart) = layout.element_chart(id) else {
-                continue;
-            };
-            let charted = Charted {
-                angles: std::array::from_fn(|i| state.q[q + i]),
-                rates: std::array::from_fn(|i| state.v[v + i]),
-                chart: state.charts[chart],
-            };
-            let (r, _) = bryant(graph, charted.angles);
-            let charted = changed(&charted, &r, motion.element(id).omega);
-            renewed.q[q..q + 3].copy_from_slice(&charted.angles);
-            renewed.v[v..v + 3].copy_from_slice(&charted.rates);
-            renewed.charts[chart] = charted.chart;
-        }
-    }
-    renewed
-}
-
-/// The charts as discrete states, for all elements in order. [`renewed`] gives their new values, once everything else
-/// is derived.
-pub fn memory<'g>(
-    model: &Model,
-    layout: &Layout,
-    start: &State<'g>,
-    state: &State<'g>,
-) -> Vec<LawState<'g>> {
-    let of = |s: usize, element: usize| {
-        let id = ElementId { system: s, element };
-        let (system, index) = (&model.systems[s], layout.element_chart(id)?);
-        Some(LawState {
-            name: format!("{}/{}: chart", system.name, system.elements[element].name),
-            unit: "",
-            initial: start.charts[index],
-            next: state.charts[index],
-        })
-    };
-    let elements = |s: usize| (0..model.systems[s].elements.len()).map(move |e| (s, e));
-    (0..model.systems.len())
-        .flat_map(elements)
-        .filter_map(|(s, e)| of(s, e))
-        .collect()
-}
-
 /// The same orientation and angular velocity, in the other chart if the second angle is too near to ±90°, otherwise
 /// unchanged; `r` is R(φ).
 ///
 /// R' = A P'ᵀ has the columns (−r₃, r₂, r₁) of R where the chart was 0, and (r₃, r₂, −r₁) where it was 1.
-fn changed<'g>(charted: &Charted<'g>, r: &Mat3<'g>, omega: Vec3<'g>) -> Charted<'g> {
+pub fn changed<'g>(charted: &Charted<'g>, r: &Mat3<'g>, omega: Vec3<'g>) -> Charted<'g> {
     let graph = charted.chart.graph();
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let second = charted.angles[1];

@@ -4,9 +4,9 @@
 //!
 //! In the plane the origin moves along x and z.
 
-use super::equations::{Start, Variables};
+use super::numbers::number;
+use super::variables::{Start, Variables};
 use crate::description::joint::Coordinate;
-use crate::dynamics::numbers::number;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Number, System};

@@ -2,7 +2,7 @@
 //! motion itself is in the file of each joint.
 
 use super::ball::{self, Orientation};
-use crate::dynamics::numbers::number;
+use super::numbers::number;
 use crate::expression::{Expr, Graph};
 use crate::model::joint::axes_of_rotation;
 use crate::model::{Dimension, Element};

@@ -4,7 +4,7 @@
 //!
 //! ω = Σ φ̇_j e_j,   α = Σ φ̈_j e_j + φ̇₁ φ̇₂ e₁ × e₂ + φ̇₃ (φ̇₁ e₁ + φ̇₂ e₂) × e₃,   p̈(ρ) = p̈ + α × ρ + ω × (ω × ρ)
 
-use super::kinematics::ElementMotion;
+use super::element::ElementMotion;
 use super::numbers::{bryant, derivative, number, vector};
 use super::translation;
 use crate::expression::vector::Vec3;

@@ -4,17 +4,51 @@
 //! element: the coordinates of its joint, or its orientation on a ball joint. q̇ = v except for quaternions, where q̇ =
 //! ½ ω ∘ q. Bryant angles are in one of two [charts](super::chart), which come first in m.
 
-use super::kinematics::State;
+use super::ball::Orientation;
 use super::numbers::number;
+use super::variables::{self, Start, Variables};
+use super::{ball, free};
 use crate::equations::Variable;
-use crate::expression::{Expr, Graph};
-pub use crate::joint::ball::Orientation;
-use crate::joint::equations::{self, Start, Variables};
-use crate::joint::{ball, free};
+use crate::expression::{Expr, Graph, Symbol};
 use crate::model::joint::directions;
 use crate::model::{Dimension, ElementId, Model, Reference};
 use crate::model::{Freedom, Joint};
 use std::ops::Range;
+
+/// The state q and v, as expressions.
+pub struct State<'g> {
+    /// q
+    pub q: Vec<Expr<'g>>,
+    /// v
+    pub v: Vec<Expr<'g>>,
+    /// The charts of all elements with Bryant angles, which come first in m; empty for other coordinates.
+    pub charts: Vec<Expr<'g>>,
+}
+
+impl<'g> State<'g> {
+    /// The state as inputs of the equations.
+    pub fn symbols(graph: &'g Graph, layout: &Layout) -> Self {
+        State {
+            q: (0..layout.coordinates.len())
+                .map(|i| graph.symbol(Symbol::Coordinate(i as u32)))
+                .collect(),
+            v: (0..layout.velocities.len())
+                .map(|i| graph.symbol(Symbol::Velocity(i as u32)))
+                .collect(),
+            charts: (0..layout.charts())
+                .map(|i| graph.symbol(Symbol::Memory(i as u32)))
+                .collect(),
+        }
+    }
+
+    /// The state as inputs of the equations, with all Bryant angles in chart 0.
+    pub fn in_first_chart(graph: &'g Graph, layout: &Layout) -> Self {
+        State {
+            charts: vec![graph.constant(0.0); layout.charts()],
+            ..State::symbols(graph, layout)
+        }
+    }
+}
 
 /// The positions of all coordinates and velocities in q and v.
 #[derive(Clone, Debug)]
@@ -234,7 +268,7 @@ impl Layout {
                 add(free::start(graph, self.directions, system));
             }
             for element in &system.elements {
-                add(equations::start(graph, self.orientation, element));
+                add(variables::start(graph, self.orientation, element));
             }
         }
         State { q, v, charts }

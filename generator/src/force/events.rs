@@ -1,13 +1,13 @@
 //! Records where laws change their branch (event functions, whose roots end steps), where laws are not smooth (kinks),
 //! when laws begin to act (onsets), and the distances to the corners of their curves.
 
-use super::{AppliedForces, choose, onset};
-use crate::dynamics::numbers::{breakpoint_indicator, rate};
+use super::{AppliedForces, onset};
 use crate::equations;
+use crate::expression::choose;
 use crate::expression::passes::Recall;
 use crate::expression::{ApproachCall, Expr, Function, Graph, Node};
-use crate::law::types::Contact;
 use crate::model::{Curve, Extrapolate, Model, ScaledCurve};
+use crate::motion::numbers::{breakpoint_indicator, rate};
 
 /// The events of all laws.
 pub struct Events<'g> {
@@ -131,13 +131,9 @@ impl<'g> AppliedForces<'g> {
         }
     }
 
-    /// True if one of the contact's curves has no value beyond its end points.
-    pub fn may_end(&self, contact: &Contact) -> bool {
-        let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
-        let curves = [Some(&contact.elastic), unloading].into_iter().flatten();
-        curves
-            .flatten()
-            .any(|scaled| self.events.ends[scaled.curve])
+    /// True if the curve has no value beyond its end points.
+    pub fn ends(&self, curve: &ScaledCurve) -> bool {
+        self.events.ends[curve.curve]
     }
 
     /// The number of curves of the state added so far.

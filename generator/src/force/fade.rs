@@ -1,8 +1,8 @@
 //! Damping that is faded in by the factor w(x) = min(x/d, 1), so that the force does not jump where x passes 0.
 
-use crate::dynamics::numbers::number;
 use crate::expression::{Expr, Graph};
 use crate::model::Number;
+use crate::motion::numbers::number;
 
 /// The smallest depth d; it replaces a smaller one, so that a depth of 0 gives full damping at once \[m or rad\].
 const SHORTEST: f64 = 1e-15;

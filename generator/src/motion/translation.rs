@@ -10,8 +10,8 @@
 //! and ẍ are 0. T and x(T) depend on parameters alone. t/T is the abscissa of a curve, so T is one of the times at
 //! which curves of time have kinks.
 
-use super::force::choose;
 use super::numbers::{derivative, number, vector};
+use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph};
 use crate::model::{Given, Number, ScaledCurve, Translation};

@@ -9,10 +9,10 @@
 //!
 //! The acceleration p̈ acts on the system as the field −p̈.
 
-use crate::dynamics::kinematics::Motion;
-use crate::dynamics::numbers::vector;
-use crate::dynamics::vehicle::VehicleMotion;
-use crate::dynamics::{time, translation};
+use super::numbers::time;
+use super::numbers::vector;
+use super::translation;
+use super::vehicle::VehicleMotion;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Reference, System};
@@ -38,17 +38,17 @@ pub(crate) fn motion<'g>(
 }
 
 /// Acceleration of a reference joint that is not free.
-pub fn reference_acceleration<'g>(
+pub(crate) fn acceleration<'g>(
     graph: &'g Graph,
     system: &System,
-    motion: &Motion<'g>,
+    vehicles: &[VehicleMotion<'g>],
 ) -> Vec3<'g> {
     match &system.reference {
         Reference::Prescribed(translation) => {
             translation::acceleration(graph, translation, &system.velocity, time(graph))
         }
         Reference::Riding { vehicle, at } => {
-            let vehicle = &motion.vehicles[*vehicle];
+            let vehicle = &vehicles[*vehicle];
             vehicle.acceleration_at(vehicle.body.rotation.times(vector(graph, at)))
         }
         Reference::Free | Reference::Fixed => Vec3::zero(graph),

@@ -22,10 +22,11 @@
 //! operand, and its derivatives count.
 
 use super::switch::Gate;
-use super::{Acts, AppliedForces, choose};
-use crate::dynamics::numbers::{curve, number};
+use super::{Acts, AppliedForces};
 use crate::expression::Expr;
+use crate::expression::choose;
 use crate::model::Hysteresis;
+use crate::motion::numbers::{curve, number};
 
 /// Relative change of the abscissa in the function that finds where the line meets a curve. While a curve drags the
 /// foot, the two differ only by rounding, which must not look like a kink. The value is well above the rounding of

@@ -3,143 +3,19 @@
 //! p_c = p + u_c,   ṗ_c = ṗ + ω × u_c,   γ(v) = ω × (ω × v) + ε × v
 //!
 //! u_c = A s_c is the position of the joint of child c on a ball joint. ε is the part of the angular acceleration that
-//! remains when v̇ = 0. The motion of an element by its own joint is in the files of [joints](crate::joint): `ball`;
+//! remains when v̇ = 0. The motion of an element by its own joint is in the files `ball`;
 //! `twist` for joints with coordinates of their own; `free` and `prescribed` for reference joints.
 
-use super::layout::Layout;
+use super::element::ElementMotion;
+use super::layout::{Layout, State};
+use super::numbers::time;
 use super::numbers::{bryant, vector};
-use super::time;
 use super::vehicle::{self, VehicleMotion};
+use super::{ball, free, prescribed, twist};
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Graph, Symbol};
-pub use crate::joint::prescribed::reference_acceleration;
-use crate::joint::{ball, free, prescribed, twist};
-use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference};
+use crate::expression::{Expr, Graph};
+use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference, System};
 use crate::model::{Freedom, Joint};
-
-/// The state q and v, as expressions.
-pub struct State<'g> {
-    /// q
-    pub q: Vec<Expr<'g>>,
-    /// v
-    pub v: Vec<Expr<'g>>,
-    /// The charts of all elements with Bryant angles, which come first in m; empty for other coordinates.
-    pub charts: Vec<Expr<'g>>,
-}
-
-impl<'g> State<'g> {
-    /// The state as inputs of the equations.
-    pub fn symbols(graph: &'g Graph, layout: &Layout) -> Self {
-        State {
-            q: (0..layout.coordinates.len())
-                .map(|i| graph.symbol(Symbol::Coordinate(i as u32)))
-                .collect(),
-            v: (0..layout.velocities.len())
-                .map(|i| graph.symbol(Symbol::Velocity(i as u32)))
-                .collect(),
-            charts: (0..layout.charts())
-                .map(|i| graph.symbol(Symbol::Memory(i as u32)))
-                .collect(),
-        }
-    }
-
-    /// The state as inputs of the equations, with all Bryant angles in chart 0.
-    pub fn in_first_chart(graph: &'g Graph, layout: &Layout) -> Self {
-        State {
-            charts: vec![graph.constant(0.0); layout.charts()],
-            ..State::symbols(graph, layout)
-        }
-    }
-}
-
-/// The motion of one element, in absolute axes.
-#[derive(Clone)]
-pub struct ElementMotion<'g> {
-    /// A, the rotation from the local frame to the absolute frame.
-    pub rotation: Mat3<'g>,
-    /// φ in the plane, 0 in space \[rad\].
-    pub angle: Expr<'g>,
-    /// The axes e_j about which its velocities v_j turn it. On a ball joint ω = Σ e_j v_j; on any other joint ω of the
-    /// carrier is added.
-    pub axes: Vec<Vec3<'g>>,
-    /// The vectors s_j by which its velocities v_j move its origin relative to the carrier; empty on a ball joint.
-    pub slides: Vec<Vec3<'g>>,
-    /// q and q̇ of the degrees of freedom of its joint; empty on a ball joint.
-    pub freedoms: Vec<(Expr<'g>, Expr<'g>)>,
-    /// Whether it turns with its carrier.
-    pub turns_with_carrier: bool,
-    /// ω \[rad/s\]
-    pub omega: Vec3<'g>,
-    /// ω · ω
-    omega_squared: Expr<'g>,
-    /// ε, the angular acceleration when v̇ = 0 \[rad/s²\]. On a ball joint it is Σ ė_j v_j, which is zero except for
-    /// Bryant angles.
-    pub bias: Vec3<'g>,
-    /// The acceleration of the origin minus that of the carrier's origin, when v̇ = 0 \[m/s²\]; for the root, minus
-    /// that of the reference joint. It is zero on ball joints, where [`ElementMotion::gamma`] of the carrier gives it.
-    pub slide_bias: Vec3<'g>,
-    /// Position of the joint, in absolute axes \[m\].
-    pub position: Vec3<'g>,
-    /// Velocity of the joint, in absolute axes \[m/s\].
-    pub velocity: Vec3<'g>,
-    /// Position of the origin relative to that of the parent, u = A_parent s on a ball joint; for the root, relative to
-    /// the reference joint \[m\].
-    pub offset: Vec3<'g>,
-}
-
-impl<'g> ElementMotion<'g> {
-    /// The motion of a body at rest in the absolute frame.
-    pub(crate) fn frame(graph: &'g Graph) -> Self {
-        let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
-        let none = Vec3::zero(graph);
-        ElementMotion {
-            rotation: Mat3([[one, zero, zero], [zero, one, zero], [zero, zero, one]]),
-            angle: zero,
-            axes: Vec::new(),
-            slides: Vec::new(),
-            freedoms: Vec::new(),
-            turns_with_carrier: false,
-            omega: none,
-            omega_squared: zero,
-            bias: none,
-            slide_bias: none,
-            position: none,
-            velocity: none,
-            offset: none,
-        }
-    }
-
-    /// Sets the angular velocity ω.
-    pub(crate) fn turns(&mut self, omega: Vec3<'g>) {
-        self.omega = omega;
-        self.omega_squared = omega.squared();
-    }
-
-    /// ω × (ω × v) = (ω·v) ω − (ω·ω) v
-    pub fn centripetal(&self, v: Vec3<'g>) -> Vec3<'g> {
-        self.omega.dot(v) * self.omega - self.omega_squared * v
-    }
-
-    /// ω · ω
-    pub fn omega_squared(&self) -> Expr<'g> {
-        self.omega_squared
-    }
-
-    /// γ(v): the acceleration of the tip of v, a vector fixed in the element, when v̇ = 0.
-    pub fn gamma(&self, v: Vec3<'g>) -> Vec3<'g> {
-        self.centripetal(v) + self.bias.cross(v)
-    }
-
-    /// D(v): the columns e_j × v.
-    pub fn turned(&self, v: Vec3<'g>) -> Vec<Vec3<'g>> {
-        self.axes.iter().map(|e| e.cross(v)).collect()
-    }
-
-    /// Velocity of a point at the offset ρ from the joint.
-    pub fn velocity_at(&self, offset: Vec3<'g>) -> Vec3<'g> {
-        self.velocity + self.omega.cross(offset)
-    }
-}
 
 /// Motion of all elements.
 pub struct Motion<'g> {
@@ -365,6 +241,15 @@ pub struct Point<'g> {
     pub velocity: Vec3<'g>,
 }
 
+/// Acceleration of the reference joint of a system, unless it is free.
+pub fn reference_acceleration<'g>(
+    graph: &'g Graph,
+    system: &System,
+    motion: &Motion<'g>,
+) -> Vec3<'g> {
+    prescribed::acceleration(graph, system, &motion.vehicles)
+}
+
 /// "head"; if there are several systems, with the name of the system before it.
 pub fn path(model: &Model, id: ElementId) -> String {
     let system = &model.systems[id.system];
@@ -379,19 +264,6 @@ pub fn path(model: &Model, id: ElementId) -> String {
 /// The path as part of a Rust identifier.
 pub fn identifier(model: &Model, id: ElementId) -> String {
     path(model, id).replace(['/', '-'], "_")
-}
-
-/// W⁻¹ ν with W = \[e_x, second, third\]. It gives φ̈ from α − ε, or φ̇ from ω. W is singular where cos φ₂ = 0.
-pub fn inverse_rates<'g>(
-    second: Vec3<'g>,
-    third: Vec3<'g>,
-    cosine_of_second_angle: Expr<'g>,
-    nu: Vec3<'g>,
-) -> [Expr<'g>; 3] {
-    let [_, c1, s1] = second.0;
-    let [x, y, z] = nu.0;
-    let rate_3 = (c1 * z - s1 * y) / cosine_of_second_angle;
-    [x - third.0[0] * rate_3, c1 * y + s1 * z, rate_3]
 }
 
 /// The constant rotation of a frame of principal axes relative to the frame of the element.
