@@ -14,7 +14,8 @@
 
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::{Body, ElementId, FieldComponent, Model, Number, Reference};
-use bryant_generator::motion::layout::{Layout, Orientation};
+use bryant_generator::motion::Layout;
+use bryant_generator::motion::ball::Orientation;
 use bryant_runtime::Real;
 
 use crate::bench::Trouble;

@@ -3,7 +3,8 @@
 use crate::random::Random;
 use crate::scene::Scene;
 use bryant_generator::model::{ElementId, Model};
-use bryant_generator::motion::layout::{Layout, Orientation};
+use bryant_generator::motion::Layout;
+use bryant_generator::motion::ball::Orientation;
 use std::fmt::Write;
 
 /// An element of a chain.

@@ -7,7 +7,8 @@ use bryant_generator::model::{
     Active, Coordinates, Dimension, Element, ElementId, FieldComponent, Force, Joint, Model,
     Number, Reference, Run, System,
 };
-use bryant_generator::motion::layout::{Layout, Orientation};
+use bryant_generator::motion::Layout;
+use bryant_generator::motion::ball::Orientation;
 pub use bryant_hard::random::Random;
 
 /// The branching of a tree.

@@ -33,7 +33,9 @@
 mod applied_forces;
 pub mod augmented;
 mod bias_forces;
-mod charts;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod charts;
 mod conditions;
 mod curves_of_time;
 mod elimination;

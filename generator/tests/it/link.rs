@@ -2,6 +2,7 @@
 
 use crate::share::share;
 use bryant_generator::dynamics::augmented::AugmentedTree;
+use bryant_generator::dynamics::charts;
 use bryant_generator::dynamics::link::frames::{
     Choice, Framed, ReferenceTurn, can_align, natural_axes,
 };
@@ -9,9 +10,10 @@ use bryant_generator::dynamics::link::search::{self, Aim};
 use bryant_generator::dynamics::link::tree::{Link, Tree};
 use bryant_generator::dynamics::link::{self, elimination, shared};
 use bryant_generator::dynamics::spatial::{self, Spatial};
-use bryant_generator::dynamics::{chart, force};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Expr, Function, Graph, NodeId};
+use bryant_generator::force::AppliedForces;
+use bryant_generator::law;
 use bryant_generator::model::Model;
 use bryant_generator::motion::{Layout, Motion, State};
 use bryant_generator::read_str;
@@ -280,8 +282,8 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
     let state = State::symbols(&graph, &layout);
     let motion = Motion::of(&graph, &model, &layout, &state);
     let augmented = AugmentedTree::of(&graph, &model, 0, &motion);
-    let charts = chart::memory(&model, &layout, &started, &state);
-    let applied = force::applied_forces(&graph, &model, &motion, &start, charts);
+    let charts = charts::memory(&model, &layout, &started, &state);
+    let applied = law::applied_forces(&graph, &model, &motion, &start, charts);
     let spatial = Spatial {
         graph: &graph,
         model: &model,
@@ -345,7 +347,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
 // Long: each result in turn, which is derived in the frames of links and then compared.
 fn said<'g>(
     spatial: &Spatial<'g, '_>,
-    applied: &force::AppliedForces<'g>,
+    applied: &AppliedForces<'g>,
     numbers: &mut Numbers,
     (text, kind, all): (&str, Kind, bool),
 ) -> Vec<Said> {
