@@ -1,7 +1,8 @@
 //! The models that are part of the program, as texts.
 
 use bryant_generator::diagnostic::Diagnostics;
-use bryant_generator::model::{Model, Scene};
+use bryant_generator::model::Model;
+use bryant_generator::model::scene::Scene;
 use std::io;
 use std::path::Path;
 use std::sync::LazyLock;

@@ -11,7 +11,7 @@
 
 use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::effect;
-use bryant_generator::model::Scene;
+use bryant_generator::model::scene::Scene;
 use bryant_generator::program;
 use std::fmt::Write as _;
 use std::path::Path;

@@ -1,9 +1,9 @@
-//! Reads models. This is the front door: it knows all kinds of joints, and models in YAML and in URDF.
+//! Reads models. This is the front door: it knows all kinds of joints, all force laws, and models in YAML and in URDF.
 
 use crate::description::load::{Loaded, read_file};
 use crate::diagnostic::Diagnostics;
 use crate::joint;
-use crate::law;
+use crate::law::{self, ForceKind};
 use crate::model::Model;
 use crate::model::resolve::{self, Kinds, Resolved};
 use crate::model::scene::Scene;
@@ -11,15 +11,16 @@ use crate::model_text::read_model;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// All kinds of joints.
+/// All kinds of joints, and all force laws.
 const KINDS: &Kinds = &Kinds {
     language: LANGUAGE,
     spellings: joint::SPELLINGS,
     words: joint::WORDS,
     laws: law::LAWS,
+    outputs: |force| ForceKind::of(force).outputs(),
 };
 
-/// The language with all kinds of joints.
+/// The language with all kinds of joints and all force laws.
 pub const LANGUAGE: &crate::description::language::Language =
     &crate::description::language::Language {
         joint_keys: joint::KEYS,

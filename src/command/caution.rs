@@ -6,7 +6,8 @@ pub mod start;
 use crate::scene::mesh::{missing, place};
 use bryant_generator::law::ForceKind;
 use bryant_generator::law::types::{Direction, JointTorque};
-use bryant_generator::model::{Active, Dimension, Model, Scene, Shown};
+use bryant_generator::model::scene::Scene;
+use bryant_generator::model::{Active, Dimension, Model, Shown};
 use start::Start;
 use std::f64::consts::FRAC_PI_2;
 

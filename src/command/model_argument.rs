@@ -5,8 +5,9 @@ use super::terminal::Terminal;
 use crate::bundled::{self, Bundled};
 use bryant_generator::description::load::{beside, read_file, shown};
 use bryant_generator::law::ForceKind;
+use bryant_generator::model::Model;
+use bryant_generator::model::scene::Scene;
 use bryant_generator::model::units::UnitSystem;
-use bryant_generator::model::{Model, Scene};
 use bryant_generator::model_text::read_model;
 use std::path::{Path, PathBuf};
 

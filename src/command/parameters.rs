@@ -3,7 +3,8 @@
 use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
-use bryant_generator::model::{Model, Parameter, Scene};
+use bryant_generator::model::scene::Scene;
+use bryant_generator::model::{Model, Parameter};
 
 /// Reads parameters: their names and values in SI units; each at most once, and within its bounds.
 pub fn parse_parameters(words: &[String], scene: &Scene) -> Result<Vec<(String, f64)>, Error> {

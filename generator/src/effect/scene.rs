@@ -3,9 +3,10 @@
 
 use super::structure::idle_parameters;
 use super::{Effect, Entry, Reason, of_model};
+use crate::model::Force;
 use crate::model::part::Field;
 use crate::model::scene::Place;
-use crate::model::{Force, Scene};
+use crate::model::scene::Scene;
 
 /// The effects of a scene, in the order of the model. Switched-off effects stand after the others of their kind.
 pub fn of_scene(scene: &Scene) -> Vec<Entry> {

@@ -6,7 +6,7 @@
 //! | `check.rs` | the checked form, and how it is made from the keys |
 //! | `terms.rs` | its numbers and terms ([`Terms`]): the permitted values, and which parts may be left out |
 //! | `force.rs` | its equations ([`Equations`]): forces and moments on bodies, events, states, powers |
-//! | `outputs.rs` | its outputs, and its visible parts ([`Outputs`], [`Measures`], [`OfLaw`], [`Look`]) |
+//! | `outputs.rs` | its outputs, and its visible parts ([`Outputs`], [`Measures`], [`Visible`]) |
 //!
 //! To add a law, add a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures
 //! and reports never ask a force which law it is. Pages and tests must be extended besides: `docs/forces/`,
@@ -26,7 +26,8 @@ pub mod user;
 use crate::description::force::LawKeys;
 use crate::expression::Graph;
 use crate::force::{AppliedForces, Equations, Events, LawState, Setting, States, Wrenches};
-use crate::model::law::{Keys, Law, Registered};
+use crate::model::law::Law;
+use crate::model::resolve::law::{Keys, Outputs, Registered};
 use crate::model::{Force, Model};
 use crate::motion::Motion;
 
@@ -101,6 +102,13 @@ macro_rules! laws {
                     return ForceKind::$law(law);
                 })*)*
                 unreachable!("the law of {} is in the list of laws", force.name)
+            }
+
+            /// The outputs of the law.
+            pub(crate) fn outputs(self) -> &'a dyn Outputs {
+                match self {
+                    $($(ForceKind::$law(law) => law,)*)*
+                }
             }
 
             /// The equations of the law.

@@ -7,7 +7,70 @@
 //! monotone wherever its points are: m is 0 if the secants differ in sign, otherwise their weighted harmonic mean
 //! (Fritsch and Butland 1984), which keeps m ≤ 3Δ on either side (Fritsch and Carlson 1980).
 
-use super::{Curve, Extrapolate, Interpolate};
+use super::number::Number;
+use serde::Serialize;
+
+/// A function through points (SI).
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Curve {
+    /// Name in the YAML, or a name made from the force in which the curve is written ("belt chest force").
+    pub name: String,
+    /// (abscissa, ordinate), abscissae strictly increasing, at least two points.
+    pub points: Vec<[f64; 2]>,
+    /// Interpolation between the points.
+    pub interpolate: Interpolate,
+    /// Extrapolation beyond the points.
+    pub extrapolate: Extrapolate,
+    /// True if the description states the extrapolation. Otherwise a run that leaves the curve raises a doubt.
+    pub told: bool,
+    /// Points of the curve's file that were left out; `None` if there are none.
+    #[serde(skip)]
+    pub thinned: Option<Thinned>,
+}
+
+/// Facts about the points that were left out of a curve, because its file has too many.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thinned {
+    /// Number of points in the file.
+    pub points: usize,
+    /// Largest distance between the curve and the points that were left out, in the SI unit of its ordinate.
+    pub error: f64,
+}
+
+/// Interpolation of a curve between its points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub enum Interpolate {
+    /// Straight lines.
+    #[default]
+    Linear,
+    /// Cubics with a common slope at each point ([`Curve::tangent`]), monotone wherever the points are.
+    Cubic,
+}
+
+/// Extrapolation of a curve beyond its first and last point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Extrapolate {
+    /// The outermost segment continues; for cubics, its tangent at the outermost point.
+    Linear,
+    /// The outermost value is held.
+    Hold,
+    /// The curve is NaN there, so that a run that leaves the range fails.
+    Error,
+}
+
+/// A scaled curve: `times · curve(argument / stretch)`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ScaledCurve {
+    /// Index into [`Model::curves`].
+    pub curve: usize,
+    /// Factor on the ordinate.
+    pub times: Number,
+    /// Factor on the abscissa, positive.
+    pub stretch: Number,
+    /// True if the curve is a line through 0 that is written as its slope, `stiffness`: `times` must then not be
+    /// negative.
+    pub stiffness: bool,
+}
 
 impl Curve {
     /// True if the curve is one straight line through 0, up to rounding of its points.

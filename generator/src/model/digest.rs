@@ -12,7 +12,7 @@
 //! not use does not change its digest: a new field must be an `Option`, a flag or a list. A field or variant that is
 //! renamed keeps its old name in the text by `#[serde(rename = "…")]`.
 
-use super::Model;
+use super::mechanism::Model;
 use serde_yaml::Value;
 use sha2::{Digest, Sha256};
 use std::fmt::Write;

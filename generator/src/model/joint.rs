@@ -1,6 +1,7 @@
 //! The joint of an element: its degrees of freedom, and how they move it.
 
-use super::{Coordinate, Element, Number};
+use super::number::Number;
+use crate::description::joint::Coordinate;
 use serde::Serialize;
 
 /// The motion that the joint of an element allows.
@@ -146,12 +147,6 @@ pub struct Follows {
 }
 
 impl Follows {
-    /// Index of the leader's coordinate among those of its element.
-    pub fn coordinate(&self, elements: &[Element]) -> usize {
-        let before = &elements[self.element].joint.freedoms()[..self.freedom];
-        before.iter().filter(|freedom| freedom.is_own()).count()
-    }
-
     /// The relation of a degree of freedom that follows this follower (q = ratio · q of this follower + offset) to this
     /// follower's leader.
     pub(crate) fn followed(self, ratio: Number, offset: Number) -> Self {
@@ -161,14 +156,6 @@ impl Follows {
             offset: Number::sum(shift, offset),
             ..self
         }
-    }
-
-    /// Position and rate of the follower at the start.
-    pub(crate) fn start(&self, elements: &[Element]) -> [Number; 2] {
-        let leader = &elements[self.element].joint.freedoms()[self.freedom];
-        let times = |n: &Number| Number::product(self.ratio.clone(), n.clone());
-        let position = Number::sum(times(&leader.position), self.offset.clone());
-        [position, times(&leader.rate)]
     }
 }
 

@@ -1,120 +1,53 @@
-//! What a model knows of a force law: its constituents, its outputs, and its visible parts. The laws themselves are in
+//! What a model knows of a force law: its constituents, its quantities, and its visible parts. The laws themselves are in
 //! [`law`](crate::law), and no file of this folder names one.
 
+use super::body::{Body, ElementId};
+use super::dimension::Dimension;
 use super::look::Look;
-use super::part::Field;
+use super::part::{Field, Term};
+use super::quantity::{Component, Projection};
 use super::requirement::{Curves, List};
-use super::resolve::Resolver;
-use super::resolve::applied::force;
-use super::{Body, Component, Dimension, Projection, Quantity};
-use crate::description::expand::{Expander, Node};
-use crate::description::force::LawKeys;
-use crate::description::output::Output as WrittenOutput;
-use crate::description::place::At;
-use crate::description::shape::{Key, Misfit, Record, Shape, check_record};
 use serde::{Serialize, Serializer};
 use serde_yaml::Value;
 use std::any::Any;
 use std::fmt;
 
-/// A law as the user writes it.
-pub trait Keys: Record {
-    /// The key that names a force and tells that it is of this law.
-    const KEY: &'static str;
-
-    /// Two keys whose values may be exchanged without changing the law.
-    const EXCHANGEABLE: Option<[&'static str; 2]> = None;
-
-    /// True if the law has outputs.
-    const OBSERVABLE: bool = true;
-
-    /// True if outputs name a part of the law after its name: `of: user drag/head`.
-    const HAS_PORTS: bool = false;
-
-    /// Advice for two forces with the same name, in place of renaming one of them.
-    const TWICE: Option<&'static str> = None;
-
-    /// The key of a Rust file that belongs to a force.
-    const SOURCE: Option<&'static str> = None;
-
-    /// The keys that all laws have.
-    fn header(&self) -> Header<'_>;
-
-    /// The checked form. Problems are reported; `None` if they leave no useful law.
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>>;
-
-    /// The records of the law's keys, in the order of the reference page.
-    fn records() -> Vec<(&'static str, &'static [Key])>;
-
-    /// Turns a copy of the force, apart from its name, into its mirror image.
-    fn mirror(_: &Expander<'_>, _image: &mut Node) {}
-
-    /// Turns a copy of a force into its mirror image, with its name. `None`, with a report, if the force has no mirror
-    /// image.
-    fn image(expander: &mut Expander<'_>, force: &Node, image: &mut Node) -> Option<()> {
-        expander.image_of_named(force, image, Self::KEY)?;
-        Self::mirror(expander, image);
-        expander.differs(force, image, Self::KEY, Self::EXCHANGEABLE)
+impl dyn Law {
+    /// All constituents of a law that exist in this dimension.
+    pub fn fields(&mut self, dimension: Dimension) -> Vec<Field<'_>> {
+        let mut fields = Vec::new();
+        self.add_fields(dimension, &mut fields);
+        fields
     }
-}
 
-/// The keys that all laws have, as written.
-pub struct Header<'a> {
-    /// Name of the force in outputs and messages.
-    pub name: String,
-    /// The key under which the user names the force, and the name.
-    pub called: Option<(&'static str, &'a str)>,
-    /// False if the force is switched off.
-    pub enabled: Option<bool>,
-    /// The switch after which the force acts.
-    pub since: Option<&'a str>,
-    /// The switch up to which the force acts.
-    pub until: Option<&'a str>,
-}
-
-/// A law as the language knows it, and how a force of it is read.
-pub(crate) struct Registered {
-    /// The law as the language knows it.
-    pub keys: LawKeys,
-    /// Enters a force of this law, written as this value, which passed the check.
-    pub enter: fn(&mut Resolver<'_>, &Value, At<'_>) -> Result<(), Misfit>,
-}
-
-impl Registered {
-    /// The law with these keys.
-    pub const fn of<K: Keys + Shape>() -> Self {
-        Registered {
-            keys: LawKeys {
-                key: K::KEY,
-                title: K::TITLE,
-                shape: check_record::<K>,
-                records: K::records,
-                image: K::image,
-                twice: K::TWICE,
-                is_observable: K::OBSERVABLE,
-                has_ports: K::HAS_PORTS,
-                source: K::SOURCE,
-            },
-            enter: enter::<K>,
+    /// Removes terms that have no effect without an absent term, and brings absent parts to one common form.
+    pub fn settle(&mut self, dimension: Dimension) {
+        for field in self.fields(dimension) {
+            if let Field::Term(_, part) = field
+                && !part.is_in()
+            {
+                part.leave_out();
+            }
         }
+        self.settle_terms();
     }
-}
 
-fn enter<K: Keys + Shape>(
-    resolver: &mut Resolver<'_>,
-    value: &Value,
-    at: At<'_>,
-) -> Result<(), Misfit> {
-    let written = K::read(value)?;
-    let header = written.header();
-    let check = |resolver: &mut Resolver<'_>, at: At<'_>| written.check(resolver, at);
-    force(resolver, K::KEY, &header, &check, at);
-    Ok(())
-}
+    /// The terms, each with true if it is present.
+    pub fn terms(&self, dimension: Dimension) -> Vec<(Term, bool)> {
+        let mut copy = self.boxed();
+        let fields = copy.fields(dimension).into_iter();
+        let terms = fields.filter_map(|field| match field {
+            Field::Term(term, part) => Some((term, part.is_in())),
+            Field::Body(_) | Field::Number(..) => None,
+        });
+        terms.collect()
+    }
 
-/// The title of a record, and its keys.
-pub(crate) fn record<R: Record>() -> (&'static str, &'static [Key]) {
-    (R::TITLE, R::KEYS)
+    /// True if the law has an effect: a term that acts alone is present.
+    pub fn acts(&self, dimension: Dimension) -> bool {
+        let mut terms = self.terms(dimension).into_iter();
+        terms.any(|(term, is_in)| is_in && term.needs.is_empty())
+    }
 }
 
 /// The constituents of a law: its bodies, its numbers, its terms.
@@ -155,24 +88,10 @@ pub trait Terms: fmt::Debug {
     /// Turns a planar law into one in space that acts in the same way in the plane. Numbers are evaluated at these
     /// values of the parameters.
     fn embed(&mut self, _defaults: &[f64]) {}
-
-    /// Reports a law that makes no sense at the start of a run. The model is right otherwise; `name` is that of the
-    /// force, whose key stands at `at`.
-    fn check_start(&self, _: &Resolver<'_>, _name: &str, _at: At<'_>) {}
 }
 
-/// The outputs and visible parts of a law.
-pub trait Outputs {
-    /// The quantity that an output asks for, and its unit. `None`, with a report, if the law has no such quantity.
-    /// `force` is the index of the force.
-    fn output(
-        &self,
-        resolver: &Resolver<'_>,
-        written: &WrittenOutput,
-        force: usize,
-        at: At<'_>,
-    ) -> Option<(Quantity, &'static str)>;
-
+/// The visible parts of a law, and the directions of its outputs.
+pub trait Visible {
     /// The direction in which a quantity of the law is measured.
     fn direction(&self, asked: &dyn OfLaw) -> Measured {
         asked
@@ -193,9 +112,9 @@ pub enum Measured {
     /// A component of a vector in absolute axes.
     Component(Component),
     /// The rotation about an axis of the carrier of this element's joint: 0, 1, 2 for x, y, z; others have no direction.
-    About(super::ElementId, usize, Side),
+    About(ElementId, usize, Side),
     /// A degree of freedom of this element's joint, by its index.
-    Freedom(super::ElementId, usize, Side),
+    Freedom(ElementId, usize, Side),
 }
 
 /// The body whose load or motion a quantity of a joint is.
@@ -229,7 +148,7 @@ pub trait OfLaw: Object {
 }
 
 /// A checked law.
-pub trait Law: Terms + Outputs + Object {
+pub trait Law: Terms + Visible + Object {
     /// The key that names a force of this law.
     fn key(&self) -> &'static str;
 

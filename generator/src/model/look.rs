@@ -1,7 +1,9 @@
 //! The visible parts of a law. Pictures, reports and animations use nothing else of it.
 
+use super::body::Attachment;
 use super::law::{Law, OfLaw};
-use super::{Attachment, Component, Plane, Projection, Quantity, Round, Shown};
+use super::quantity::{Component, Projection, Quantity};
+use super::surface::{Plane, Round, Shown};
 
 /// A visible part of a law.
 #[derive(Clone, Debug)]

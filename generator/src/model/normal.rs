@@ -4,8 +4,14 @@
 //! nothing uses, parameters that no number mentions, and everything that had a meaning only together with these. So two
 //! descriptions that differ only in such parts have the same model, the same digest and the same text.
 
+use super::body::Body;
+use super::dimension::Dimension;
+use super::mechanism::Model;
+use super::number::Number;
 use super::part::Part;
-use super::{Active, Body, Dimension, Given, Model, Number, Quantity, Reference, Translation};
+use super::quantity::Quantity;
+use super::switch::Active;
+use super::system::{Given, Reference, Translation};
 
 impl Model {
     /// Brings the model to its normal form.

@@ -5,8 +5,8 @@
 //!
 //! `twist` gives the same for the equations, as expressions.
 
-use super::Freedom;
-use super::resolve::kinematics::{cross, plus, sum, times, values};
+use super::joint::Freedom;
+use super::number::Number;
 use crate::rotation::{IDENTITY, Matrix, Vector, apply, product};
 
 /// A column of H: the velocity of the origin, then the angular velocity.
@@ -67,4 +67,25 @@ pub fn columns(
         columns.push([slide[0], slide[1], slide[2], axis[0], axis[1], axis[2]]);
     }
     columns
+}
+
+pub(crate) fn values(numbers: &[Number; 3], parameters: &[f64]) -> Vector {
+    [0, 1, 2].map(|i| numbers[i].value(parameters))
+}
+
+pub(crate) fn plus(a: &Matrix, b: &Matrix) -> Matrix {
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[i][j] + b[i][j]))
+}
+
+pub(crate) fn times(a: &Matrix, factor: f64) -> Matrix {
+    a.map(|row| row.map(|entry| factor * entry))
+}
+
+/// The matrix of the cross product v × ….
+pub(crate) fn cross(v: Vector) -> Matrix {
+    [[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]]
+}
+
+pub(crate) fn sum(a: Vector, b: Vector) -> Vector {
+    [0, 1, 2].map(|i| a[i] + b[i])
 }

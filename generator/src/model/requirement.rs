@@ -4,13 +4,17 @@
 //! Each number of a law has its own rule in [`part`](super::part). Requirements on several numbers together are here,
 //! each as one expression of these numbers.
 
+use super::coefficient::Hysteresis;
+use super::curve::{Curve, ScaledCurve};
+use super::dimension::Dimension;
+use super::force::Force;
+use super::mechanism::Model;
+use super::number::Number;
 use super::part::{Field, Part};
 use super::rule::{Rule, Ruled};
+use super::switch::Switch;
+use super::system::{Element, Reference, System, Vehicle};
 use super::unloading;
-use super::{
-    Curve, Dimension, Element, Force, Hysteresis, Model, Number, Reference, ScaledCurve, Switch,
-    System, Vehicle,
-};
 
 /// Relative excess of a principal moment over the sum of the others that counts as rounding: for a flat body they are
 /// equal.

@@ -1,7 +1,7 @@
 //! Rules for the values of numbers. All numbers of all laws are classified by these: constants are checked when a model
 //! is read, parameters before a run.
 
-use super::Number;
+use super::number::Number;
 
 /// The values that a number may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,8 +1,10 @@
 //! A model together with everything that its text mentions, and the places in the text: the basis for explaining the
 //! model.
 
+use super::criteria::Criteria;
+use super::mechanism::Model;
 use super::resolve::Resolved;
-use super::{Criteria, Model, Shown};
+use super::surface::Shown;
 use crate::description::load::Loaded;
 use crate::description::long::long_form;
 use crate::description::place::At;

@@ -1,8 +1,9 @@
 //! Surfaces: ellipsoids and planes on bodies, which meet in contacts, and shapes that are only drawn.
 
+use super::body::{Attachment, Body};
+use super::number::Number;
 use super::part::{Fresh, Part};
 use super::rule::{Rule, Ruled};
-use super::{Attachment, Body, Number};
 use crate::description::mesh::Solid;
 use serde::Serialize;
 

@@ -1,6 +1,7 @@
 //! Switches: events that happen at most once in a run, and the forces that wait for them.
 
-use super::{Number, Quantity};
+use super::number::Number;
+use super::quantity::Quantity;
 use serde::Serialize;
 
 /// An event that fires at most once in a run, and has fired from then on.
@@ -35,15 +36,6 @@ pub struct Active {
     pub since: Option<usize>,
     /// The force acts up to this switch: index as above.
     pub until: Option<usize>,
-}
-
-/// A quantity of a switch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum SwitchQuantity {
-    /// 1 once the switch is in effect, 0 before.
-    Acts,
-    /// The time at which the switch takes effect \[s\], −1 before.
-    Time,
 }
 
 impl Trigger {

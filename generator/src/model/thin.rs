@@ -1,7 +1,7 @@
 //! Thins curves with more points than a model may have: points are left out that lie close to a straight line between
 //! their neighbours.
 
-use super::{Curve, Thinned};
+use super::curve::{Curve, Thinned};
 
 impl Curve {
     /// The curve with at most `most` of its points, and the error of this. The points are chosen for the smallest error

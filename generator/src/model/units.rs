@@ -1,6 +1,5 @@
 //! The units in which outputs are shown. All computations are in SI.
 
-use super::{Model, Output};
 use crate::description::unit::{STANDARD_GRAVITY, whole_power};
 use serde::{Deserialize, Serialize};
 
@@ -82,17 +81,6 @@ impl Unit {
         match self.size {
             1.0 => value,
             size => value / size,
-        }
-    }
-}
-
-impl Model {
-    /// The unit in which an output is shown.
-    pub fn unit_of(&self, output: &Output) -> Unit {
-        let own = self.units.own.iter().find(|(name, _)| *name == output.name);
-        match own {
-            Some((_, unit)) => unit.clone(),
-            None => self.units.system.unit(&output.unit),
         }
     }
 }

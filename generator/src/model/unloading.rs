@@ -1,7 +1,8 @@
 //! Conditions on the curves of loading and unloading under which hysteresis loops close, as inequalities of the factors
 //! of the curves.
 
-use super::{Curve, Extrapolate, Interpolate, Number, ScaledCurve};
+use super::curve::{Curve, Extrapolate, Interpolate, ScaledCurve};
+use super::number::Number;
 
 /// Number of straight pieces by which a smooth piece of a curve is approximated.
 const PIECES: u32 = 16;

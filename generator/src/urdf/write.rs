@@ -51,7 +51,9 @@ fn word(name: &str, separator: char, otherwise: &str) -> String {
         }
     }
     let mut word = word.trim_end_matches(separator).to_owned();
-    if !word.starts_with(|c: char| c.is_ascii_lowercase()) || crate::model::is_keyword(&word) {
+    if !word.starts_with(|c: char| c.is_ascii_lowercase())
+        || crate::model::resolve::name::is_keyword(&word)
+    {
         word = match word.is_empty() {
             true => otherwise.to_owned(),
             false => format!("{otherwise}{separator}{word}"),

@@ -3,6 +3,7 @@
 mod config;
 mod effects;
 mod emission;
+mod imports;
 mod joined;
 mod joints;
 mod language;

@@ -6,9 +6,10 @@ use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::force::{Measures, Value};
-use crate::model::law::{OfLaw, Outputs};
+use crate::model::law::{OfLaw, Visible};
 use crate::model::look::Look;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use crate::model::{Body, Quantity};
 use serde::Serialize;
 
@@ -65,7 +66,9 @@ impl Outputs for Airbag {
         };
         Some((quantity, unit))
     }
+}
 
+impl Visible for Airbag {
     fn looks(&self) -> Vec<Look<'_>> {
         let bag = Look::Bag(self.bag.round(), Box::new(AirbagQuantity::Volume));
         let others = self.against.iter().map(|other| Look::Round(other.round()));

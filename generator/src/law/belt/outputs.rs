@@ -1,15 +1,16 @@
 //! Outputs of a belt: of the whole, of a segment, of a ring.
 
-use super::check::Belt;
+use super::check::{Belt, check_length};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::force::{Measures, Value};
-use crate::model::law::{OfLaw, Outputs};
+use crate::model::law::{OfLaw, Visible};
 use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use crate::model::resolve::output::has_direction;
 use crate::model::{Body, Quantity};
 use serde::Serialize;
@@ -102,6 +103,12 @@ impl Outputs for Belt {
         part.map(|_| (quantity, unit))
     }
 
+    fn check_start(&self, resolver: &Resolver<'_>, name: &str, at: At<'_>) {
+        check_length(self, resolver, name, at);
+    }
+}
+
+impl Visible for Belt {
     fn looks(&self) -> Vec<Look<'_>> {
         vec![Look::Line(Line::Belt(self), self.points().collect())]
     }

@@ -1,12 +1,9 @@
 //! The terms of a belt: its curves, its untensioned length, its devices.
 
-use super::check::check_length;
 use super::check::{Belt, BeltLength, Pretensioner, Retractor, Ring};
-use crate::description::place::At;
 use crate::model::law::Terms;
 use crate::model::part::{Field, Fresh, Part, Term, as_written, attachment};
 use crate::model::requirement::{Curves, List};
-use crate::model::resolve::Resolver;
 use crate::model::rule::{Rule, Ruled};
 use crate::model::{Body, Curve, Dimension, Extrapolate, Number, ScaledCurve};
 
@@ -142,10 +139,6 @@ impl Terms for Belt {
                 list.reached(path, tension, curve, times);
             }
         }
-    }
-
-    fn check_start(&self, resolver: &Resolver<'_>, name: &str, at: At<'_>) {
-        check_length(self, resolver, name, at);
     }
 
     fn bodies_mut(&mut self) -> Vec<&mut Body> {

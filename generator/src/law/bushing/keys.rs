@@ -5,8 +5,9 @@ use crate::description::expand::{Expander, Node};
 use crate::description::place::At;
 use crate::description::quantity::{OneOrThree, Quantity};
 use crate::description::shape::{Key, record};
-use crate::model::law::{Header, Keys, Law, record};
+use crate::model::law::Law;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::{Header, Keys, record};
 
 record! {
     /// Springs and dampers in six directions between frames of two bodies.

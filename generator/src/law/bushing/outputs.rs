@@ -6,9 +6,10 @@ use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::force::{Measures, Value};
-use crate::model::law::{OfLaw, Outputs};
+use crate::model::law::{OfLaw, Visible};
 use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use crate::model::{Body, Component, Projection, Quantity};
 use serde::Serialize;
 
@@ -124,7 +125,9 @@ impl Outputs for Bushing {
         let what = what;
         Some((Quantity::of_force(force, what), unit))
     }
+}
 
+impl Visible for Bushing {
     fn looks(&self) -> Vec<Look<'_>> {
         vec![Look::Line(Line::Bushing, vec![&self.from.on, &self.to.on])]
     }

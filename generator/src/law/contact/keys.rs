@@ -7,8 +7,9 @@ use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record};
 use crate::description::short::ByName;
 use crate::description::surface::{Edge, Ellipsoid, Plane};
-use crate::model::law::{Header, Keys, Law, record};
+use crate::model::law::Law;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::{Header, Keys, record};
 
 record! {
     /// Contact of an ellipsoid with a plane or another ellipsoid.

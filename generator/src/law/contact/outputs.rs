@@ -8,9 +8,10 @@ use crate::expression::vector::Vec3;
 use crate::force::{Measures, Value};
 use crate::model::Quantity;
 use crate::model::Round;
-use crate::model::law::{OfLaw, Outputs};
+use crate::model::law::{OfLaw, Visible};
 use crate::model::look::Look;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use crate::model::resolve::output::has_direction;
 use serde::Serialize;
 
@@ -62,7 +63,9 @@ impl Outputs for Contact {
         };
         Some((quantity, unit))
     }
+}
 
+impl Visible for Contact {
     fn looks(&self) -> Vec<Look<'_>> {
         let round = Round {
             center: &self.ellipsoid,

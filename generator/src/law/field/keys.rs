@@ -3,8 +3,9 @@
 use crate::description::curve::Function;
 use crate::description::place::At;
 use crate::description::shape::{Key, record};
-use crate::model::law::{Header, Keys, Law, record};
+use crate::model::law::Law;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::{Header, Keys, record};
 
 record! {
     /// A uniform acceleration field.

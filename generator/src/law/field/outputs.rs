@@ -4,8 +4,9 @@ use super::check::Field;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::model::Quantity;
-use crate::model::law::Outputs;
+use crate::model::law::Visible;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 
 impl Outputs for Field {
     fn output(
@@ -18,3 +19,5 @@ impl Outputs for Field {
         None
     }
 }
+
+impl Visible for Field {}

@@ -7,8 +7,9 @@ use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record, words};
 use crate::description::short::Each;
 use crate::description::short::LongAxis;
-use crate::model::law::{Header, Keys, Law, record};
+use crate::model::law::Law;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::{Header, Keys, record};
 
 record! {
     /// Torque in a joint.

@@ -6,8 +6,9 @@ use crate::description::place::At;
 use crate::expression::Expr;
 use crate::force::{Measures, Value};
 use crate::model::Quantity;
-use crate::model::law::{Measured, OfLaw, Outputs, Side};
+use crate::model::law::{Measured, OfLaw, Side, Visible};
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use serde::Serialize;
 
 /// A quantity of a law in a joint.
@@ -83,7 +84,9 @@ impl Outputs for Joint {
         let what = JointOutput { about, what };
         Some((Quantity::of_force(force, what), unit))
     }
+}
 
+impl Visible for Joint {
     fn direction(&self, asked: &dyn OfLaw) -> Measured {
         asked
             .get()
@@ -120,7 +123,9 @@ impl Outputs for Freedom {
         let what = JointOutput { about: 0, what };
         Some((Quantity::of_force(force, what), unit))
     }
+}
 
+impl Visible for Freedom {
     fn direction(&self, asked: &dyn OfLaw) -> Measured {
         asked
             .get()

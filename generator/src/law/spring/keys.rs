@@ -6,8 +6,9 @@ use crate::description::force::Attachment;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::shape::{Key, record};
-use crate::model::law::{Header, Keys, Law, record};
+use crate::model::law::Law;
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::{Header, Keys, record};
 
 record! {
     /// A spring and a damper between two points.

@@ -7,9 +7,10 @@ use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::force::{Measures, Value};
 use crate::model::Quantity;
-use crate::model::law::{OfLaw, Outputs};
+use crate::model::law::{OfLaw, Visible};
 use crate::model::look::{Line, Look};
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use crate::model::resolve::output::has_direction;
 use serde::Serialize;
 
@@ -57,7 +58,9 @@ impl Outputs for Spring {
         };
         Some((quantity, unit))
     }
+}
 
+impl Visible for Spring {
     fn looks(&self) -> Vec<Look<'_>> {
         vec![Look::Line(Line::Spring, vec![&self.from, &self.to])]
     }

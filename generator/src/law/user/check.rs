@@ -8,7 +8,6 @@ use crate::description::point::Point;
 use crate::description::shape::Named;
 use crate::description::unit::Dimension as UnitDimension;
 use crate::diagnostic::{Diagnostic, quoted};
-use crate::law::ForceKind;
 use crate::law::user::keys::{
     User as Written, UserFreedom as WrittenFreedom, UserLine as WrittenLine, UserPoint,
     UserState as WrittenState,
@@ -196,13 +195,8 @@ pub(crate) fn user(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
 
 /// Reports a source file that holds another user force's function, too.
 fn check_own_file(resolver: &Resolver<'_>, user: &User, at: At<'_>) {
-    let others = resolver
-        .forces
-        .iter()
-        .filter_map(|force| match ForceKind::of(force) {
-            ForceKind::User(other) => Some(other),
-            _ => None,
-        });
+    let others = resolver.forces.iter();
+    let others = others.filter_map(|force| force.law.get::<User>());
     if let Some(source) = &user.function.source
         && let Some(other) = others
             .filter(|other| other.function.source.as_ref() == Some(source))

@@ -23,7 +23,7 @@ use crate::law::belt::force as belt;
 use crate::law::joint::force as joint;
 use crate::law::joint::force::Rotation;
 use crate::law::joint::{JointMeasures, Order};
-use crate::law::types::{User, UserFreedom, UserLine};
+use crate::law::user::check::{User, UserFreedom, UserLine};
 use crate::model::{Body, Dimension, ElementId, FieldComponent};
 use crate::motion::Point;
 use crate::motion::numbers::time;

@@ -8,8 +8,9 @@ use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::force::{Measures, Value};
 use crate::law::joint::JointMeasures;
-use crate::model::law::{OfLaw, Outputs};
+use crate::model::law::{OfLaw, Visible};
 use crate::model::resolve::Resolver;
+use crate::model::resolve::law::Outputs;
 use crate::model::{Body, Component, Projection, Quantity};
 use serde::Serialize;
 
@@ -122,6 +123,8 @@ impl Outputs for User {
         of_user(resolver, self, written, force, at)
     }
 }
+
+impl Visible for User {}
 
 /// The quantity that an output asks of a user force, and its unit.
 fn of_user(

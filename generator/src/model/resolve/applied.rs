@@ -11,7 +11,8 @@ use crate::description::force::LawKeys;
 use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::quoted;
-use crate::model::law::{Header, Law};
+use crate::model::law::Law;
+use crate::model::resolve::law::Header;
 use crate::model::{Bristle, Force, Friction, Number};
 
 /// Enters a force of the law with this key: its checked form, or the fact that it is switched off.

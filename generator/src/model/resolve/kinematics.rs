@@ -4,13 +4,10 @@
 
 use crate::model::Joint;
 use crate::model::placement::placed;
-use crate::model::{Attachment, Body, Number, System, Vehicle};
+pub(crate) use crate::model::placement::{cross, plus, sum, times, values};
+use crate::model::{Attachment, Body, System, Vehicle};
 
 pub use crate::rotation::{IDENTITY, Matrix, Vector, apply, product, transpose};
-
-pub fn values(numbers: &[Number; 3], parameters: &[f64]) -> Vector {
-    [0, 1, 2].map(|i| numbers[i].value(parameters))
-}
 
 pub fn rotation([a, b, c]: Vector) -> Matrix {
     let x = [
@@ -29,23 +26,6 @@ pub fn rotation([a, b, c]: Vector) -> Matrix {
         [0.0, 0.0, 1.0],
     ];
     product(&product(&x, &y), &z)
-}
-
-pub fn plus(a: &Matrix, b: &Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[i][j] + b[i][j]))
-}
-
-pub fn times(a: &Matrix, factor: f64) -> Matrix {
-    a.map(|row| row.map(|entry| factor * entry))
-}
-
-/// The matrix of the cross product v × ….
-pub fn cross(v: Vector) -> Matrix {
-    [[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]]
-}
-
-pub fn sum(a: Vector, b: Vector) -> Vector {
-    [0, 1, 2].map(|i| a[i] + b[i])
 }
 
 pub fn distance(a: Vector, b: Vector) -> f64 {

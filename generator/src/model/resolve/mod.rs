@@ -19,10 +19,10 @@ mod formula;
 pub(crate) mod hysteresis;
 pub(crate) mod joint;
 pub(crate) mod kinematics;
+pub(crate) mod law;
+mod mesh;
 mod mobility;
 pub(crate) mod name;
-pub use name::is_keyword;
-mod mesh;
 pub(crate) mod output;
 mod parameter;
 pub(crate) mod quantity;
@@ -36,8 +36,8 @@ mod translation;
 mod units;
 mod vehicle;
 
+use self::law::{Outputs, Registered};
 use self::surface::surface;
-use super::law::Registered;
 use super::{
     Attachment, Body, Coordinates, Criteria, Dimension, ElementId, Force, Model, Number, Output,
     Parameter, Shown, Switch, System, Vehicle,
@@ -76,6 +76,8 @@ pub struct Kinds {
     pub(crate) words: &'static [Word],
     /// The force laws.
     pub(crate) laws: &'static [Registered],
+    /// The outputs of the law of a force.
+    pub(crate) outputs: fn(&Force) -> &dyn Outputs,
 }
 
 /// A model before and after normalisation.
@@ -236,7 +238,7 @@ impl<'a> Resolver<'a> {
         if sound {
             check_regularity(&self, loaded);
             for (force, at) in self.forces.iter().zip(&self.force_places) {
-                force.law.check_start(&self, &force.name, *at);
+                (self.kinds.outputs)(force).check_start(&self, &force.name, *at);
             }
         }
         let mut model = Model {

@@ -245,7 +245,8 @@ impl Resolver<'_> {
     ) -> Option<(Quantity, &'static str)> {
         let subject = self.subject(written, at, off)?;
         if let Subject::Force(force) = subject {
-            return self.forces[force].law.output(self, written, force, at);
+            let outputs = (self.kinds.outputs)(&self.forces[force]);
+            return outputs.output(self, written, force, at);
         }
         self.without(at, &["segment", "ring"], "anything but a belt");
         match subject {

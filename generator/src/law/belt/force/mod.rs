@@ -37,7 +37,7 @@ use crate::force::onset::{FAR, Onset, absolute, size};
 use crate::force::switch::Gate;
 use crate::force::{Acts, AppliedForces, Product};
 use crate::force::{Equations, Measures, Setting};
-use crate::law::types::{Belt, BeltLength};
+use crate::law::belt::check::{Belt, BeltLength};
 use crate::model::{Attachment, Model};
 use crate::motion::numbers::{curve, inverse, number, vector};
 use crate::motion::{Motion, Point};

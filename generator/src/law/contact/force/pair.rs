@@ -9,7 +9,7 @@ use super::Touch;
 use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{ApproachCall, Expr, Function, Graph};
-use crate::law::types::Contact;
+use crate::law::contact::check::Contact;
 use crate::model::{Attachment, Dimension, Ellipsoid, Number};
 use crate::motion::Motion;
 use crate::motion::kinematics::constant_rotation;

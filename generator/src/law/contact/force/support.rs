@@ -7,7 +7,7 @@
 
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Function, Graph};
-use crate::law::types::Contact;
+use crate::law::contact::check::Contact;
 use crate::model::Dimension;
 use crate::motion::Motion;
 use crate::motion::kinematics::constant_rotation;

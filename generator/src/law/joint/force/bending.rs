@@ -28,7 +28,7 @@ use crate::expression::{Expr, Function, Graph};
 use crate::force::switch::Gate;
 use crate::force::{AppliedForces, Product};
 use crate::law::joint::JointMeasures;
-use crate::law::types::JointTorque;
+use crate::law::joint::check::JointTorque;
 use crate::motion::ElementMotion;
 use crate::motion::numbers::number;
 

@@ -9,7 +9,7 @@
 use super::Rotation;
 use crate::expression::{Expr, Function, Graph};
 use crate::force::AppliedForces;
-use crate::law::types::Drive;
+use crate::law::joint::check::Drive;
 use crate::model::FieldComponent;
 use crate::motion::numbers::time;
 use crate::motion::numbers::{curve, derivative, number};

@@ -35,7 +35,8 @@ use crate::force::onset::{Onset, absolute};
 use crate::force::switch::Gate;
 use crate::force::{Acts, AppliedForces, Product};
 use crate::force::{Equations, Measures, Setting};
-use crate::law::types::{JointQuantity, JointTorque, Lock, Stop};
+use crate::law::joint::check::{JointTorque, Lock, Stop};
+use crate::law::joint::outputs::JointQuantity;
 use crate::model::part::AXES;
 use crate::model::{Body, Dimension, ElementId, Model, Quantity, Reference, ScaledCurve};
 use crate::motion::Motion;
@@ -268,7 +269,7 @@ fn looked_at(model: &Model, force: usize, about: usize) -> bool {
     outputs.chain(triggers).any(|quantity| match quantity {
         Quantity::OfForce { force: f, what, .. } if *f == force => {
             what.get()
-                .is_some_and(|asked: &crate::law::types::JointOutput| {
+                .is_some_and(|asked: &crate::law::joint::outputs::JointOutput| {
                     asked.about == about && asked.what != JointQuantity::Torque
                 })
         }
