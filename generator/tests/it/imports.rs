@@ -183,13 +183,14 @@ fn reached(from: &Module, imports: &BTreeMap<Module, BTreeSet<Module>>) -> BTree
 fn circles(imports: &BTreeMap<Module, BTreeSet<Module>>) -> BTreeSet<Vec<Module>> {
     let reached: BTreeMap<&Module, BTreeSet<Module>> =
         imports.keys().map(|m| (m, reached(m, imports))).collect();
-    let circle = |m: &&Module| {
-        reached[*m]
-            .iter()
-            .filter(|o| reached[o].contains(*m))
+    let circle = |m: &&Module| -> Vec<Module> {
+        let others = reached[*m].iter();
+        others
+            .filter(|other| reached[other].contains(*m))
             .cloned()
+            .collect()
     };
-    let circles = reached.keys().map(|m| circle(m).collect::<Vec<Module>>());
+    let circles = reached.keys().map(circle);
     circles.filter(|circle| circle.len() > 1).collect()
 }
 

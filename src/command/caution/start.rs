@@ -5,9 +5,9 @@
 use crate::pose::{Numbers, Pose, Vec3, dot};
 use bryant_generator::law::ForceKind;
 use bryant_generator::law::types::{Against, Contact};
+use bryant_generator::model::scene::Scene;
 use bryant_generator::model::{
-    Active, Body, Bristle, Dimension, ElementId, Force, Friction, Model, Number, Reference, Scene,
-    Trigger,
+    Active, Body, Bristle, Dimension, ElementId, Force, Friction, Model, Number, Reference, Trigger,
 };
 
 /// The start of a run.
