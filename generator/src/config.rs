@@ -5,13 +5,38 @@
 
 use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::dynamics;
 use crate::law::ForceKind;
 use crate::model::{Coordinates, Dimension, Model};
 use crate::program::{self, Lists};
 use crate::target::{c, rust, summary};
-use crate::{Error, dynamics};
+use std::fmt;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
+
+/// The reason why no source was generated.
+#[derive(thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The description is wrong; every problem with its place and remedy.
+    #[error("{0}")]
+    Description(#[from] Diagnostics),
+    /// A file could not be read or written, or a directory was not found.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
+}
+
+/// The same as `Display`, because a build script that returns the error by `?` prints it by `Debug`.
+impl fmt::Debug for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{self}")
+    }
+}
 
 /// The models to generate, with options and directories.
 ///

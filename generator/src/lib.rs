@@ -67,30 +67,6 @@ pub mod rotation;
 pub mod target;
 pub mod urdf;
 
-pub use config::{Config, Generated};
+pub use config::{Config, Error, Generated};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use read::{read, read_scene, read_scene_str, read_str, read_without_sources};
-
-/// The reason why no source was generated.
-#[derive(thiserror::Error)]
-#[non_exhaustive]
-pub enum Error {
-    /// The description is wrong; every problem with its place and remedy.
-    #[error("{0}")]
-    Description(#[from] Diagnostics),
-    /// A file could not be read or written, or a directory was not found.
-    #[error("{}: {source}", path.display())]
-    File {
-        /// The file.
-        path: std::path::PathBuf,
-        /// The error of the operating system.
-        source: std::io::Error,
-    },
-}
-
-/// The same as `Display`, because a build script that returns the error by `?` prints it by `Debug`.
-impl std::fmt::Debug for Error {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{self}")
-    }
-}
