@@ -149,7 +149,8 @@ fn limits_fall_with_the_duration_of_a_force() {
             assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
         };
         for (index, (length, size)) in corners.iter().enumerate() {
-            let (length, size, newton) = (*length, *size, 1e3 * size.abs());
+            let (length, size): (f64, f64) = (*length, *size);
+            let newton = 1e3 * size.abs();
             let kept = row(size, length, "UN R94");
             near(&kept["value"], newton);
             near(&kept["limit"], newton);
@@ -165,8 +166,9 @@ fn limits_fall_with_the_duration_of_a_force() {
             let longer = match corners.get(index + 1) {
                 Some((next, level)) => {
                     let half = row(size, 0.5 * (length + next), "UN R94");
-                    near(&half["limit"], 0.5e3 * (size.abs() + level.abs()));
-                    (half, size.abs() == level.abs())
+                    let level = f64::abs(*level);
+                    near(&half["limit"], 0.5 * (newton + 1e3 * level));
+                    (half, size.abs() == level)
                 }
                 None => (row(size, length + 0.02, "UN R94"), true),
             };
@@ -636,7 +638,7 @@ const DAMAGE: [(&str, fn(&str) -> Option<String>); 5] = [
         Some(text.replacen("Sampling interval", "Interval", 1))
     }),
     ("has a second value", |text| {
-        Some(format!("Unit :g\n{text}"))
+        Some(format!("Unit :N\n{text}"))
     }),
 ];
 
@@ -1582,7 +1584,11 @@ fn curves_and_recordings_read_tests_by_the_same_rules() {
         (sound.replaced(&[(0, "-")]), "T1.mme"),
     ] {
         files.write(path);
-        let recorded = read().unwrap_err().to_string();
+        // a recording may go without a channel that is damaged
+        let recorded = match bryant_signal::Recording::read(&path.join("tests/T1.mme")) {
+            Ok(found) => found.damaged.first().unwrap().error.clone(),
+            Err(error) => error.to_string(),
+        };
         let (_, curve) = call(path, &["check", "sled.yaml"], 2);
         assert!(
             recorded.contains(place) && curve.contains(place),
