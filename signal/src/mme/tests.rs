@@ -147,7 +147,7 @@ fn times_of_a_channel_have_its_unit() {
         );
     }
     fs::write(&file, text.replace("Unit :s", "Unit :N")).unwrap();
-    let error = wrong(folder.path());
+    let error = damage(folder.path());
     assert!(
         error.contains("T1.001") && error.contains("no unit of time"),
         "{error}"
@@ -157,7 +157,7 @@ fn times_of_a_channel_have_its_unit() {
         text.replace("Unit :s", "Data status :No Data\r\nUnit :s"),
     )
     .unwrap();
-    let error = wrong(folder.path());
+    let error = damage(folder.path());
     assert!(error.contains("No Data"), "{error}");
 }
 
@@ -188,7 +188,7 @@ fn a_channel_says_that_it_failed() {
 }
 
 /// What is wrong with a test: the damage of a channel, or an error where it is not known which channel is damaged.
-fn wrong(folder: &Path) -> String {
+fn damage(folder: &Path) -> String {
     match read(folder) {
         Ok(found) => found.damaged.first().unwrap().error.clone(),
         Err(error) => error.to_string(),
@@ -257,14 +257,14 @@ fn what_is_wrong_is_said_with_its_place() {
         laboratory(folder.path());
         let text = format!("Time of first sample :0\n{text}");
         fs::write(folder.path().join("CHANNEL/T1.003"), text).unwrap();
-        let error = wrong(folder.path());
+        let error = damage(folder.path());
         assert!(error.contains(told), "{error}");
     }
     let folder = tempfile::tempdir().unwrap();
     laboratory(folder.path());
     let unknown = "Sampling interval :1e-4\n1\n2\n";
     fs::write(folder.path().join("CHANNEL/T1.003"), unknown).unwrap();
-    let error = wrong(folder.path());
+    let error = damage(folder.path());
     assert!(
         error.contains("`Time of first sample` must be there"),
         "{error}"
@@ -301,7 +301,7 @@ fn a_list_that_contradicts_the_files_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         laboratory(folder.path());
         fs::write(folder.path().join("CHANNEL/T1.chn"), list).unwrap();
-        let error = wrong(folder.path());
+        let error = damage(folder.path());
         assert!(error.contains(told), "{error}");
     }
 }

@@ -200,7 +200,7 @@ impl Test {
             match File::of(path, text, listed) {
                 Ok(file) => test.files.push(file),
                 Err(damage) if damage.names.is_empty() => return Err(damage.wrong),
-                Err(damage) => test.damaged.push(damage),
+                Err(damage) => test.damaged.push(*damage),
             }
         }
         if let Some(list) = list {
@@ -405,13 +405,13 @@ impl List {
 
 impl File {
     /// A channel file, whose code in the list is `listed`.
-    fn of(path: PathBuf, text: String, listed: Option<&str>) -> Result<File, Damage> {
+    fn of(path: PathBuf, text: String, listed: Option<&str>) -> Result<File, Box<Damage>> {
         let lines = Lines::of(text);
         let damage = |names: &[&str], wrong: Wrong| {
             let names = names.iter().filter(|name| !name.is_empty());
             let mut names: Vec<String> = names.map(|name| (*name).to_owned()).collect();
             names.dedup();
-            Damage { names, wrong }
+            Box::new(Damage { names, wrong })
         };
         let own = lines.pair(&path, "Channel code");
         let own = own.map_err(|wrong| damage(&[listed.unwrap_or_default()], wrong))?;
