@@ -27,13 +27,14 @@ pub fn info(facts: &Facts) -> &'static Info {
 fn leaked(facts: &Facts) -> Info {
     let curves = facts.curves.iter().map(|curve| CurveInfo {
         name: word(&curve.name),
+        unit: word(curve.unit),
         first: curve.range[0],
         last: curve.range[1],
         ends: curve.ends,
         extrapolate: extrapolate(curve.extrapolate),
         told: curve.told,
         kind: match curve.kind {
-            Watched::Curve(_) => CurveKind::Curve,
+            Watched::Curve(..) => CurveKind::Curve,
             Watched::Bearing => CurveKind::Bearing,
             Watched::HalfTurn => CurveKind::HalfTurn,
             Watched::Direction(component) => CurveKind::Direction(component),

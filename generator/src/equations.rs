@@ -148,8 +148,9 @@ pub struct CurveOfState {
 /// A quantity that is watched during a run: the argument of a curve, or one that is treated like it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Watched {
-    /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves).
-    Curve(usize),
+    /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves), and its SI unit; "" for a
+    /// pure number.
+    Curve(usize, &'static str),
     /// The side to which a joint is bent, as an angle.
     Bearing,
     /// The distance of an angle from ±180°, with its sign; a torque jumps there.

@@ -369,6 +369,7 @@ mod tests {
         time_ends: false,
         curves: &[crate::CurveInfo {
             name: "belt lap: curve",
+            unit: "",
             first: 0.0,
             last: 0.1,
             ends: [0.0, 6e3],

@@ -420,6 +420,8 @@ pub enum CurveKind {
 pub struct CurveInfo {
     /// Name of its effect ("joint man/head: elastic").
     pub name: &'static str,
+    /// SI unit of its abscissa; "" for a pure number.
+    pub unit: &'static str,
     /// Its first abscissa.
     pub first: f64,
     /// Its last abscissa.

@@ -282,6 +282,7 @@ impl<T: Real> Model<T> for Runaway {
         velocities: &["mass.x"],
         curves: &[CurveInfo {
             name: "spring: curve",
+            unit: "m",
             first: -1.0,
             last: 0.45,
             ends: [0.0, 1e-3],

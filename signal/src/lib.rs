@@ -22,5 +22,5 @@ pub mod table;
 pub mod unit;
 
 pub use bryant_table::mme::NoChannel;
-pub use recording::{Channel, ReadError, Recording};
+pub use recording::{Channel, Damaged, ReadError, Recording};
 pub use signal::Signal;

@@ -35,11 +35,22 @@ impl Channel {
     }
 }
 
+/// A channel of a test that cannot be read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Damaged {
+    /// The names that it may have: channel codes, its title.
+    pub names: Vec<String>,
+    /// What is wrong, with its place and the remedy.
+    pub error: String,
+}
+
 /// Several channels of one test or run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
     /// The channels, in their order.
     pub channels: Vec<Channel>,
+    /// Channels that cannot be read. Nothing may be said of a test where one of them might have been used.
+    pub damaged: Vec<Damaged>,
 }
 
 /// Why a recording cannot be read.
@@ -101,7 +112,8 @@ impl Recording {
     /// file.
     ///
     /// # Errors
-    /// A file cannot be read, or its content is wrong.
+    /// A file cannot be read, or its content is wrong. Of a test in ISO-MME, channels that cannot be read are
+    /// [damaged](Recording::damaged), as long as others can.
     pub fn read(path: &Path) -> Result<Recording, ReadError> {
         let is_mme = path
             .extension()
@@ -110,6 +122,12 @@ impl Recording {
             true => crate::mme::read(path),
             false => crate::table::read(path),
         }
+    }
+
+    /// The damaged channel that may have this name.
+    pub fn damaged(&self, name: &str) -> Option<&Damaged> {
+        let has = |one: &&Damaged| one.names.iter().any(|other| other == name);
+        self.damaged.iter().find(has)
     }
 
     /// The channel with this name; if there is none, the channel with this title.

@@ -53,7 +53,10 @@ pub fn read(path: &Path) -> Result<Recording, ReadError> {
             ..Channel::of(signal)
         });
     }
-    Ok(Recording { channels })
+    Ok(Recording {
+        channels,
+        damaged: Vec::new(),
+    })
 }
 
 #[cfg(test)]

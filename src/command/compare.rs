@@ -3,10 +3,11 @@
 use super::Error;
 use super::model_argument::nearest;
 use super::terminal::Terminal;
+use crate::criteria::said;
 use crate::quantity;
 use bryant_signal::filter::{Class, Standard, class, class_of_code, filtered};
 use bryant_signal::rating::{RATE, Rating, RatingError, rate};
-use bryant_signal::{Channel, NoChannel, Recording, Signal, unit};
+use bryant_signal::{Channel, Damaged, NoChannel, Recording, Signal, unit};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -101,6 +102,9 @@ impl Arguments {
         let run = recording(&self.run)?;
         let measured = recording(&self.measured)?;
         let pairs = self.pairs(&run, &measured)?;
+        for damaged in run.damaged.iter().chain(&measured.damaged) {
+            terminal.note(&format!("left out, and not needed: {}", said(damaged)));
+        }
         let mut rated = Vec::new();
         let mut failed = Vec::new();
         for (run, measured) in pairs {
@@ -148,6 +152,16 @@ impl Arguments {
         });
         if !self.channels.is_empty() {
             return named.collect();
+        }
+        // a damaged channel would have been compared with the one of its name
+        let has = |of: &Recording, name: &String| {
+            of.channel(name) != Err(NoChannel::Unknown) || of.damaged(name).is_some()
+        };
+        for (one, other) in [(run, measured), (measured, run)] {
+            let compared = |damaged: &&Damaged| damaged.names.iter().any(|name| has(other, name));
+            if let Some(damaged) = one.damaged.iter().find(compared) {
+                return Err(Error::Input(said(damaged)));
+            }
         }
         let mut pairs = Vec::new();
         for ours in &run.channels {
@@ -264,6 +278,9 @@ pub(super) fn channel<'r>(
     path: &Path,
     name: &str,
 ) -> Result<&'r Channel, Error> {
+    if let Some(damaged) = recording.damaged(name) {
+        return Err(Error::Input(said(damaged)));
+    }
     let found = recording.channel(name);
     found.map_err(|error| no_channel(error, recording, path, name))
 }

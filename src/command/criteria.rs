@@ -3,7 +3,7 @@
 use super::Error;
 use super::compare::{ISO, filter_standard, pair, recording};
 use super::terminal::Terminal;
-use crate::criteria::{Recorded, Verdict, filter, verdict};
+use crate::criteria::{Recorded, Verdict, filter, said, verdict};
 use bryant_runtime::response::filter::Standard;
 use bryant_study::criteria::limits::{self, Limits};
 use bryant_study::criteria::{Criterion, Missing};
@@ -84,6 +84,9 @@ impl Arguments {
         .map_err(Error::Input)?;
         let verdict = verdict(&limits, &recorded);
         usable(&verdict)?;
+        for damaged in &recording.damaged {
+            terminal.note(&format!("left out, and not needed: {}", said(damaged)));
+        }
         if verdict.rows.iter().all(|row| row.value.is_err()) {
             let lacks = verdict.rows.iter().filter_map(|row| match &row.value {
                 Err(Missing::Place(place)) => Some(format!("{} ({place})", row.criterion.name)),
@@ -128,7 +131,7 @@ fn usable(verdict: &Verdict) -> Result<(), Error> {
     match wrong {
         Some((name, why)) => Err(Error::Input(format!(
             "{name}: {why}{}",
-            match why.contains("--place") {
+            match why.contains("--place") || why.contains("help: ") {
                 // this reason already has its remedy
                 true => "",
                 false =>
@@ -151,11 +154,8 @@ fn listed(all: &[Limits]) -> String {
             let criterion = Criterion::named(name);
             let (unit, filter) =
                 criterion.map_or(("", String::new()), |one| (one.unit, filter(one, limits)));
-            let _ = writeln!(
-                text,
-                "  {name:18} {:>16}  {filter}",
-                format!("{limit} {unit}").trim_end()
-            );
+            let line = format!("  {name:18} {:>16}  {filter}", limit.text(unit));
+            let _ = writeln!(text, "{line}");
         }
     }
     text

@@ -205,9 +205,7 @@ fn criteria(facts: &ModelFacts) -> Result<Vec<Judged>, Error> {
     let (_, judged) = judge(facts, asked).map_err(Error::Input)?;
     let judged = judged.iter().map(|one| Judged {
         name: one.criterion.name.to_owned(),
-        unit: one.criterion.unit,
-        scale: one.criterion.scale,
-        limit: one.limit,
+        shown: one.shown(),
     });
     Ok(judged.collect())
 }

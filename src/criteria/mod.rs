@@ -8,10 +8,10 @@
 
 mod recording;
 
-pub use recording::{Recorded, verdict};
+pub use recording::{Recorded, said, verdict};
 
 use bryant_runtime::response::channel::{ARM, Neck};
-use bryant_study::criteria::limits::Limits;
+use bryant_study::criteria::limits::{Limit, Limits};
 use bryant_study::criteria::{Criterion, Missing, choice};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -22,7 +22,8 @@ pub struct Verdict {
     pub limits: Limits,
     /// Test object and position of the occupant; `None` if no channel code names an occupant.
     pub occupant: Option<String>,
-    /// Channels of the occupant that are not used, because their files cast doubt on them, with the reasons.
+    /// Channels of the occupant that are not used, because their files cast doubt on them, with the reasons, and damaged
+    /// channels that are not needed.
     pub left_out: Vec<String>,
     /// The criteria, in their order.
     pub rows: Vec<Row>,
@@ -32,14 +33,61 @@ pub struct Verdict {
 pub struct Row {
     /// The criterion.
     pub criterion: &'static Criterion,
-    /// Its limit, in the criterion's unit; `None` if it has no limit.
+    /// Its limit, in the criterion's unit; `None` if it has no limit. Of a limit that falls with the duration of a load,
+    /// the one for `duration`.
     pub limit: Option<f64>,
     /// Its value, in the criterion's unit; or the reason why there is none.
     pub value: Result<f64, Missing>,
+    /// The time for which the value is exceeded in total \[s\], if the limit falls with it.
+    pub duration: Option<f64>,
     /// A remark on the value, such as the mode of Nij.
     pub detail: String,
     /// The channels or outputs that it was computed from, each with its place.
     pub channels: Vec<(String, String)>,
+}
+
+impl Row {
+    /// A criterion with its value \[SI\] or the reason why there is none; `limit` is the limit of the regulation. If it
+    /// falls with the duration of the load, the value is the largest ratio to it, and `duration` \[s\] is that of the
+    /// largest ratio: the row then has the level and the limit for this duration.
+    pub fn new(
+        criterion: &'static Criterion,
+        limit: Option<&Limit>,
+        value: Result<f64, Missing>,
+        duration: Option<f64>,
+        detail: String,
+        channels: Vec<(String, String)>,
+    ) -> Row {
+        let falling = limit.and_then(|limit| limit.falling(criterion.scale));
+        let (limit, duration) = match (limit, falling, duration) {
+            (Some(Limit::Constant(limit)), ..) => (Some(*limit), None),
+            (_, Some(falling), Some(duration)) => {
+                let here = falling.at(duration) / criterion.scale;
+                (Some(here), Some(duration))
+            }
+            _ => (None, None),
+        };
+        let (value, detail) = match (limit, duration) {
+            (Some(limit), Some(duration)) => {
+                let held = match duration > 0.0 {
+                    true => format!("exceeded for {:.1} ms in all", 1e3 * duration),
+                    false => "its peak".to_owned(),
+                };
+                let both = [held, detail];
+                let said: Vec<String> = both.into_iter().filter(|text| !text.is_empty()).collect();
+                (value.map(|ratio| ratio * limit), said.join("; "))
+            }
+            _ => (value.map(|value| value / criterion.scale), detail),
+        };
+        Row {
+            criterion,
+            limit,
+            value,
+            duration,
+            detail,
+            channels,
+        }
+    }
 }
 
 impl Verdict {
@@ -166,6 +214,7 @@ impl Verdict {
                 "unit": row.criterion.unit,
                 "met": value.zip(row.limit).map(|(value, limit)| *value <= limit),
                 "filter": row.criterion.class(&self.limits).map(|class| class.to_string()),
+                "duration": row.duration,
                 "detail": row.detail,
                 "channels": row.channels.iter().cloned().collect::<std::collections::BTreeMap<_, _>>(),
                 "missing": missing,
@@ -214,10 +263,14 @@ fn number(value: f64) -> String {
 }
 
 fn verdict_of(value: f64, limit: f64) -> String {
-    let share = 100.0 * (value / limit - 1.0);
+    let share = 100.0 * (value / limit - 1.0).abs();
+    let share = match share < 0.95 {
+        true => format!("{share:.1}"),
+        false => format!("{share:.0}"),
+    };
     match value <= limit {
-        true => format!("met by {:.0} %", -share),
-        false => format!("MISSED by {share:.0} %"),
+        true => format!("met by {share} %"),
+        false => format!("MISSED by {share} %"),
     }
 }
 

@@ -4,9 +4,9 @@ use super::{Row, Verdict, mode};
 use crate::sweep::response_of;
 use bryant_runtime::response::channel::Combination;
 use bryant_runtime::response::filter::Class;
-use bryant_runtime::response::reduce;
+use bryant_runtime::response::{Response, exceedance_of, reduce};
 use bryant_signal::filter::{Standard, class_of_code, filtered, narrow_filter};
-use bryant_signal::{Channel, NoChannel, Recording, Signal, unit};
+use bryant_signal::{Channel, Damaged, NoChannel, Recording, Signal, unit};
 use bryant_study::criteria::choice::{self, Asked, Candidate, Choice, Found, choose, is_pattern};
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{CRITERIA, Criterion, Formed, Missing, PLACES};
@@ -15,6 +15,8 @@ use bryant_study::criteria::{CRITERIA, Criterion, Formed, Missing, PLACES};
 pub struct Recorded<'a> {
     recording: &'a Recording,
     choice: Choice,
+    /// The damaged channels that stand behind the sound ones in the choice.
+    damaged: Vec<&'a Damaged>,
     /// True if the motion is planar: quantities across the plane are 0.
     planar: bool,
     /// The standard whose coefficients the filters have.
@@ -26,7 +28,8 @@ impl<'a> Recorded<'a> {
     /// of one `occupant`. If `planar`, nothing moves along y.
     ///
     /// # Errors
-    /// There is no such place or no such channel, or there are channels of several occupants.
+    /// There is no such place or no such channel, a channel that is named is damaged, or there are channels of several
+    /// occupants.
     pub fn new(
         recording: &'a Recording,
         named: &[(String, String)],
@@ -41,6 +44,9 @@ impl<'a> Recorded<'a> {
         };
         for (place, name) in named {
             choice::known(place, name)?;
+            if let Some(damaged) = recording.damaged(name) {
+                return Err(said(damaged));
+            }
             match recording.channel(name) {
                 Ok(channel) => {
                     let all = &recording.channels;
@@ -72,18 +78,42 @@ impl<'a> Recorded<'a> {
             code: &channel.name,
             doubt: channel.doubt.as_deref(),
         });
-        let candidates: Vec<Candidate<'_>> = each.collect();
+        // a damaged channel might have been used wherever one of its names fits
+        let names = |one: &'a Damaged| one.names.iter().map(move |name| (name, one));
+        let all = recording.damaged.iter().flat_map(names);
+        let (names, damaged): (Vec<&String>, Vec<&Damaged>) = all.unzip();
+        let damaged_ones = names.iter().map(|name| Candidate {
+            name,
+            code: name,
+            doubt: None,
+        });
+        let candidates: Vec<Candidate<'_>> = each.chain(damaged_ones).collect();
         Ok(Recorded {
             recording,
+            damaged,
             choice: choose(&candidates, &asked)?,
             planar,
             standard,
         })
     }
 
+    /// A damaged channel that might have been used at a place.
+    fn damaged_at(&self, place: &str) -> Option<&'a Damaged> {
+        let all = match self.choice.at(place)? {
+            Found::Named(_) => return None,
+            Found::Coded(all) | Found::Doubtful(all) | Found::Several(all) => all,
+        };
+        let behind = |index: &usize| index.checked_sub(self.recording.channels.len());
+        let mut damaged = all.iter().filter_map(behind);
+        damaged.find_map(|index| self.damaged.get(index).copied())
+    }
+
     /// The channel at a place for a criterion with this filter. If there are channels with several filters, it is the
     /// one with this filter, else the one with the widest.
     fn channel(&self, place: &str, class: Option<Class>) -> Result<&'a Channel, Missing> {
+        if let Some(damaged) = self.damaged_at(place) {
+            return Err(Missing::Unusable(said(damaged)));
+        }
         let channel = |index: &usize| &self.recording.channels[*index];
         let names = |all: &[usize]| {
             all.iter()
@@ -195,14 +225,13 @@ impl<'a> Recorded<'a> {
         )
     }
 
-    /// The value of a criterion \[SI\], with a remark on it. Places and names of the channels that it uses are added to
-    /// `channels`.
+    /// The value of a criterion \[SI\]. Places and names of the channels that it uses are added to `channels`.
     fn value(
         &self,
         criterion: &Criterion,
         limits: &Limits,
         channels: &mut Vec<(String, String)>,
-    ) -> Result<(f64, String), Missing> {
+    ) -> Result<Value, Missing> {
         let formed = self.formed(criterion, limits)?;
         let mut signals = Vec::new();
         let mut remarks = vec![formed.detail.to_owned()];
@@ -230,19 +259,32 @@ impl<'a> Recorded<'a> {
             remarks.insert(0, mode([fx, fz, my], &neck, [first, every]));
         }
         remarks.retain(|remark| !remark.is_empty());
-        Ok((value, remarks.join("; ")))
+        let duration = match response {
+            Response::Exceedance { limit } => {
+                Some(exceedance_of(&samples, &limit, every, &mut scratch).duration)
+            }
+            _ => None,
+        };
+        Ok(Value {
+            value,
+            duration,
+            detail: remarks.join("; "),
+        })
     }
 
-    /// True if several sensors fit a place of the criterion.
-    fn is_ambiguous(&self, criterion: &Criterion, limits: &Limits) -> bool {
+    /// True if several sensors fit a place of the criterion, or a damaged channel might have been used there.
+    fn is_unclear(&self, criterion: &Criterion, limits: &Limits) -> bool {
         let places = self
             .formed(criterion, limits)
             .map_or(vec![], |formed| formed.places);
-        let several = |place: &String| matches!(self.choice.at(place), Some(Found::Several(_)));
-        places.iter().any(several)
+        let unclear = |place: &String| {
+            matches!(self.choice.at(place), Some(Found::Several(_)))
+                || self.damaged_at(place).is_some()
+        };
+        places.iter().any(unclear)
     }
 
-    /// Channels of the occupant whose files cast doubt on them, with the reasons.
+    /// Channels of the occupant whose files cast doubt on them, with the reasons, and damaged channels.
     fn left_out(&self) -> Vec<String> {
         let occupant = self.choice.occupant.as_deref().unwrap_or_default();
         let all = self.recording.channels.iter();
@@ -251,41 +293,54 @@ impl<'a> Recorded<'a> {
             let doubt = channel.doubt.as_ref()?;
             Some(format!("{} (\"{doubt}\")", channel.name))
         });
-        each.collect()
+        let damaged = self.recording.damaged.iter();
+        let damaged = damaged.map(|one| format!("{} (damaged)", one.names.join(" or ")));
+        each.chain(damaged).collect()
     }
+}
+
+/// The value of a criterion.
+struct Value {
+    /// \[SI\]; the largest ratio of the load to its limit, if that falls with the duration of the load.
+    value: f64,
+    /// The duration of the largest ratio \[s\], if there is one.
+    duration: Option<f64>,
+    /// A remark on it.
+    detail: String,
 }
 
 /// The verdict on a recording: all criteria that the regulation limits, and others for which there are channels that no
 /// limited criterion uses.
 pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
-    let limit = |criterion: &Criterion| limits.limits.get(criterion.name).copied();
+    let is_limited = |criterion: &Criterion| limits.of(criterion).is_some();
     let places = |criterion: &Criterion| {
         recorded
             .formed(criterion, limits)
             .map_or(vec![], |formed| formed.places)
     };
-    let limited = CRITERIA.iter().filter(|one| limit(one).is_some());
+    let limited = CRITERIA.iter().filter(|one| is_limited(one));
     let limited: Vec<String> = limited.flat_map(places).collect();
     let shown = CRITERIA.iter().filter(|one| {
         let places = places(one);
         let apart = !places.is_empty() && places.iter().all(|place| !limited.contains(place));
         // a criterion without a limit is shown only if it is clear which sensor it belongs to
-        limit(one).is_some() || apart && !recorded.is_ambiguous(one, limits)
+        is_limited(one) || apart && !recorded.is_unclear(one, limits)
     });
     let rows = shown.map(|criterion| {
         let mut channels = Vec::new();
         let value = recorded.value(criterion, limits, &mut channels);
-        let (value, detail) = match value {
-            Ok((value, detail)) => (Ok(value / criterion.scale), detail),
-            Err(missing) => (Err(missing), String::new()),
+        let (value, duration, detail) = match value {
+            Ok(found) => (Ok(found.value), found.duration, found.detail),
+            Err(missing) => (Err(missing), None, String::new()),
         };
-        Row {
+        Row::new(
             criterion,
-            limit: limit(criterion),
+            limits.of(criterion),
             value,
+            duration,
             detail,
             channels,
-        }
+        )
     });
     let rows: Vec<Row> = rows.collect();
     let used = |name: &String| {
@@ -299,6 +354,15 @@ pub fn verdict(limits: &Limits, recorded: &Recorded<'_>) -> Verdict {
         limits: limits.clone(),
         rows,
     }
+}
+
+/// A damaged channel in words, with its damage.
+pub fn said(damaged: &Damaged) -> String {
+    format!(
+        "channel \"{}\" is damaged: {}",
+        damaged.names.join("\" or \""),
+        damaged.error
+    )
 }
 
 /// Returns the signals if all have the same times; else an error.

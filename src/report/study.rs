@@ -2,6 +2,7 @@
 
 use super::{filled, short};
 use bryant_signal::unit;
+use bryant_study::criteria::Shown;
 use bryant_study::distribution::Distribution;
 use bryant_study::quantity::strict;
 use bryant_study::results::{Results, ResultsError};
@@ -30,12 +31,8 @@ pub struct About {
 pub struct Judged {
     /// Its name.
     pub name: String,
-    /// The unit in which it is shown.
-    pub unit: &'static str,
-    /// SI value of that unit.
-    pub scale: f64,
-    /// In that unit, as the regulation prints it; `None` if there is none.
-    pub limit: Option<f64>,
+    /// How its number is shown beside its limit.
+    pub shown: Shown,
 }
 
 /// The page of results.
@@ -97,7 +94,7 @@ impl Runs {
         let d = study.varied.len();
         let limits = study.responses.iter().map(|response| {
             let one = about.judged(&response.name)?;
-            Some(one.limit? * one.factor(&response.unit.name))
+            Some(one.shown.limit? * one.factor(&response.unit.name))
         });
         let limits: Vec<Option<f64>> = limits.collect();
         let mut runs = Runs {
@@ -145,7 +142,7 @@ impl About {
 impl Judged {
     /// Its unit in that of the results.
     fn factor(&self, unit: &str) -> f64 {
-        unit::factor(self.unit, unit).unwrap_or(self.scale)
+        unit::factor(self.shown.unit, unit).unwrap_or(self.shown.scale)
     }
 }
 
@@ -172,7 +169,7 @@ fn responses(summary: &Summary, about: &About, within: &[u64]) -> Vec<Value> {
         let shown = |value: f64| value / factor;
         json!({
             "name": one.name,
-            "unit": judged.map_or(one.unit.as_str(), |judged| judged.unit),
+            "unit": judged.map_or(one.unit.as_str(), |judged| judged.shown.unit),
             "factor": factor,
             "mean": shown(one.mean),
             "deviation": shown(one.deviation),
@@ -181,7 +178,7 @@ fn responses(summary: &Summary, about: &About, within: &[u64]) -> Vec<Value> {
             "quantiles": one.quantiles.map(shown),
             "correlations": one.correlations,
             "shares": one.sensitivity.as_ref().map(|of| &of.parameters),
-            "limit": judged.and_then(|judged| judged.limit),
+            "limit": judged.and_then(|judged| judged.shown.limit),
             "within": *within as f64 / one.count.max(1) as f64,
         })
     });

@@ -29,8 +29,8 @@ function limit(one) {
 }
 
 function met(one) {
-  const share = 100 * (one.value / one.limit - 1);
-  return one.limit === null ? "no limit" : element("span", one.met ? `met by ${Math.round(-share)} %` : `missed by ${Math.round(share)} %`, { class: one.met ? "met" : "missed" });
+  const share = 100 * Math.abs(one.value / one.limit - 1), text = share < 0.95 ? share.toFixed(1) : share.toFixed(0);
+  return one.limit === null ? "no limit" : element("span", `${one.met ? "met" : "missed"} by ${text} %`, { class: one.met ? "met" : "missed" });
 }
 
 // The result in short: what the last screen of the command says.

@@ -157,6 +157,7 @@ pub fn response_of(what: What) -> Response {
         What::Excursion => Response::Excursion,
         What::Integral => Response::Integral,
         What::Olc => Response::Olc,
+        What::Exceedance { limit } => Response::Exceedance { limit },
     }
 }
 

@@ -7,8 +7,8 @@ use crate::quantity::dimension;
 use bryant_generator::description::unit::Dimension;
 use bryant_generator::diagnostic::quoted;
 use bryant_generator::model::units::Unit;
-use bryant_runtime::response::Channel;
 use bryant_runtime::response::filter::Filter;
+use bryant_runtime::response::{Channel, FallingLimit};
 use serde::Serialize;
 
 /// Version of the computation of responses. It is raised when results change by more than rounding, so that results of
@@ -107,6 +107,18 @@ pub enum What {
     Integral,
     /// The occupant load criterion of a vehicle's pulse.
     Olc,
+    /// The largest ratio of |x| to a limit that falls with the total time for which a level is exceeded. It belongs to
+    /// criteria, and has no name of its own.
+    Exceedance {
+        /// In SI.
+        #[serde(serialize_with = "corners")]
+        limit: FallingLimit,
+    },
+}
+
+/// Stores a limit as its corners.
+fn corners<S: serde::Serializer>(limit: &FallingLimit, to: S) -> Result<S::Ok, S::Error> {
+    limit.corners().serialize(to)
 }
 
 /// The names of all kinds in a study. Their times are filled in later.
@@ -232,7 +244,7 @@ impl What {
     pub fn unit(self, unit: &str) -> String {
         match self {
             What::TimeOfPeak | What::TimeOfMinimum => "s".into(),
-            What::Hic15 | What::Hic36 => String::new(),
+            What::Hic15 | What::Hic36 | What::Exceedance { .. } => String::new(),
             What::Integral => {
                 let product =
                     dimension(unit).unwrap_or(Dimension::ONE) * Dimension::new(0, 0, 1, 0);

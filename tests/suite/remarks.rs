@@ -1,4 +1,4 @@
-//! What `bryant check` and `bryant run` say of mistakes that leave a model valid, and that they do not say it of others.
+//! What `bryant check` and `bryant run` say of mistakes, most of which leave a model valid, and that they do not say it of others.
 
 use super::called::call;
 use super::directory;
@@ -122,6 +122,24 @@ fn a_scene_in_space_says_that_nothing_has_weight() {
             !told.iter().any(|one| one.contains("no field acts")),
             "{told:?}"
         );
+    }
+}
+
+/// A field that is switched off, whatever its acceleration, says nothing.
+#[test]
+fn a_field_that_is_switched_off_gives_no_weight() {
+    let directory = directory();
+    for off in ["[0, 0], enabled: false", "[0, -1 gn], enabled: false"] {
+        let text = SLED.replacen("[0, -1 gn]", off, 1);
+        assert_ne!(text, SLED);
+        let told = warnings(directory.path(), &text);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].contains("no field acts"), "{told:?}");
+        // one that acts beside it is enough
+        let more = format!("forces:\n  - {{ field: none, acceleration: {off} }}\n");
+        let both = SLED.replacen("forces:\n", &more, 1);
+        assert_ne!(both, SLED);
+        assert_eq!(warnings(directory.path(), &both), [""; 0]);
     }
 }
 
@@ -348,4 +366,28 @@ run: {{ duration: 0.2 s, every: 0.1 s }}
         error.contains("of what swing does not have, and which are left out: belt lap"),
         "{error}"
     );
+}
+
+/// Each freedom of a joint may have a law of its own, which wants a name; one force for all is no remedy.
+#[test]
+fn laws_of_several_freedoms_want_names() {
+    let directory = directory();
+    let path = directory.path();
+    let model = |names: [&str; 2]| {
+        let mut text = "model: cart\ndimension: 3\nsystems:\n  - name: m\n    reference: fixed\n    \
+                        elements: [{ name: b, joint: translation, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }]\nforces:\n"
+            .to_owned();
+        for (name, freedom) in names.iter().zip(["position-x", "position-y"]) {
+            text += &format!("  - {{ joint: m/b, {name}freedom: {freedom}, stiffness: 100 }}\n");
+        }
+        text + "outputs: [{ name: x, of: m/b, what: position, component: x }]\nrun: { duration: 1 s, every: 0.1 s }\n"
+    };
+    fs::write(path.join("cart.yaml"), model([""; 2])).unwrap();
+    let (_, error) = call(path, &["check", "cart.yaml"], 2);
+    assert!(
+        error.contains("give one of them a name") && !error.contains("one force"),
+        "{error}"
+    );
+    fs::write(path.join("cart.yaml"), model(["name: x, ", "name: y, "])).unwrap();
+    call(path, &["check", "cart.yaml"], 0);
 }

@@ -80,6 +80,10 @@ places! {
     femur_left,
     /// Axial force of the right femur.
     femur_right,
+    /// Sliding of the left knee.
+    knee_left,
+    /// Sliding of the right knee.
+    knee_right,
     /// Moment about x of the left tibia.
     tibia_left_mx,
     /// Moment about y of the left tibia.

@@ -747,7 +747,7 @@ impl Reader<'_> {
                 }
                 read => read,
             };
-            match Test::read(&path, &loader) {
+            match Test::read(&path, &loader).and_then(Test::whole) {
                 Ok(test) => self.tests.insert(path.clone(), test),
                 Err(wrong) => {
                     self.problems.add(in_test(at.key("mme"), wrong));

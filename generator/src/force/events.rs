@@ -92,12 +92,13 @@ impl<'g> AppliedForces<'g> {
         self.events.kinks.push((name.into(), Box::new(expression)));
     }
 
-    /// Adds a curve of the state, and its kinks if it has any. `which` names the curve of the `owner` for people;
-    /// `argument` is called as in [`AppliedForces::kink`].
+    /// Adds a curve of the state, and its kinks if it has any. `which` names the curve of the `owner` for people, and
+    /// `unit` is the SI unit of its abscissa, "" for a pure number. `argument` is called as in [`AppliedForces::kink`].
     pub fn curve_of_state(
         &mut self,
         owner: &str,
         which: &str,
+        unit: &'static str,
         curve: &ScaledCurve,
         acts: Acts,
         argument: impl Fn() -> Expr<'g> + Copy + 'g,
@@ -116,7 +117,7 @@ impl<'g> AppliedForces<'g> {
         if !self.events.straight[curve.curve] {
             self.events.curves.push(CurveOfState {
                 name: format!("{owner}: {which}"),
-                what: equations::Watched::Curve(curve.curve),
+                what: equations::Watched::Curve(curve.curve, unit),
                 idle: first,
                 argument: Box::new(abscissa),
                 acts: None,
@@ -218,8 +219,7 @@ impl<'g> AppliedForces<'g> {
         let mut curves = Vec::new();
         for curve in &self.events.curves {
             // beyond the points of a curve that ends, the force is NaN, so it cannot tell whether the curve acts
-            let ends =
-                matches!(curve.what, equations::Watched::Curve(index) if self.events.ends[index]);
+            let ends = matches!(curve.what, equations::Watched::Curve(index, _) if self.events.ends[index]);
             let argument = match curve.acts {
                 Some(force) if !ends => {
                     let least = graph.constant(f64::MIN_POSITIVE);

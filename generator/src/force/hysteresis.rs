@@ -90,7 +90,14 @@ pub fn apply<'g>(
                 format!("{owner}: the line meets the unloading curve"),
                 move || (1.0 - APART) * below() - unloading / slope - foot,
             );
-            applied.curve_of_state(owner, "unloading curve", curve, Acts::AboveFirst, below);
+            applied.curve_of_state(
+                owner,
+                "unloading curve",
+                unit,
+                curve,
+                Acts::AboveFirst,
+                below,
+            );
         }
         None => applied.kink(format!("{owner}: the line ends"), move || below() - foot),
     }
@@ -187,7 +194,7 @@ pub fn apply_both_ways<'g>(
     );
     applied.kink(format!("{owner}: passes the zero of its curves"), argument);
     let which = "unloading curve";
-    applied.curve_of_state(owner, which, unloading, Acts::Everywhere, argument);
+    applied.curve_of_state(owner, which, unit, unloading, Acts::Everywhere, argument);
     applied.corners(owner, which, gate, unloading, argument, move || rate);
     let force = choose(zero, abscissa, above, below);
     (force, [renewed.max(zero), renewed.min(zero)])

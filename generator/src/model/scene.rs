@@ -20,6 +20,8 @@ pub struct Scene {
     /// The model with everything that the text mentions, including zeros and unused parts. Forces that are switched off
     /// come after the others.
     pub written: Model,
+    /// Number of forces that are switched off: the last of `written`.
+    pub off: usize,
     /// The criteria by which a run is judged, if the text has any.
     pub criteria: Option<Criteria>,
     /// The places of all parts in the text.
@@ -38,6 +40,7 @@ impl Scene {
         Scene {
             model: resolved.model,
             written: resolved.written,
+            off: resolved.off,
             criteria: resolved.criteria,
             places: Places::of(&loaded, &resolved.owners),
             long_form: long_form(&loaded),

@@ -83,6 +83,8 @@ pub enum Kind {
 pub struct Watched {
     /// Name of its owner and of the curve.
     pub name: String,
+    /// SI unit of its abscissa; "" for a pure number.
+    pub unit: &'static str,
     /// Its first and last abscissa; for other quantities, the range of values.
     pub range: [f64; 2],
     /// The values of the curve at these abscissae.
@@ -226,7 +228,7 @@ const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
 
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
-        let crate::equations::Watched::Curve(curve) = watched.what else {
+        let crate::equations::Watched::Curve(curve, unit) = watched.what else {
             let range = match watched.what {
                 crate::equations::Watched::Volume => [0.0, 1.0 - LEAST_VOLUME],
                 crate::equations::Watched::Edge => [0.0, 1.0],
@@ -234,6 +236,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
             };
             return Watched {
                 name: watched.name.clone(),
+                unit: "",
                 range,
                 ends: [0.0; 2],
                 extrapolate: Extrapolate::Hold,
@@ -247,6 +250,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
         };
         Watched {
             name: watched.name.clone(),
+            unit,
             range: [first, last],
             ends: [start, end],
             extrapolate: curve.extrapolate,

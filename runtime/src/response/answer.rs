@@ -24,6 +24,7 @@ impl Answer {
             Response::TimeOfPeak | Response::TimeOfMinimum => duration,
             Response::Integral => largest * duration,
             Response::Hic { .. } | Response::Olc => 0.0,
+            Response::Exceedance { limit } => largest / limit.at(0.0),
             _ => largest,
         };
         Answer {

@@ -7,7 +7,7 @@
 //!
 //! This code handles one signal at a time, because it branches and allocates.
 
-use super::{Response, STANDARD_GRAVITY, extremes, reduce};
+use super::{Response, STANDARD_GRAVITY, exceedance, extremes, reduce};
 use crate::Real;
 
 /// A jump of a signal: its time and both sides.
@@ -84,6 +84,18 @@ pub fn reduce_with_jumps<T: Real>(
         Response::Hic { window } => Some(hic(&knots, window)),
         Response::Clip { duration } => Some(level(&knots, duration, false)),
         Response::ContiguousClip { duration } => Some(level(&knots, duration, true)),
+        Response::Exceedance { limit } => {
+            let size = |knot: &Knot<T>| Knot {
+                x: knot.x.abs(),
+                ..*knot
+            };
+            let sizes: Vec<Knot<T>> = knots.iter().map(size).collect();
+            let points = sizes.iter().map(|knot| [knot.t, knot.x]);
+            let worst = exceedance::worst(&limit, points, length, |duration| {
+                (duration <= length).then(|| level(&sizes, duration, false))
+            });
+            Some(worst.ratio)
+        }
     };
     let answer = answer.unwrap_or(of_samples);
     values.iter().fold(answer, |sum, x| sum + x.taint())
@@ -451,6 +463,7 @@ fn stretches<T: Real>(knots: &[Knot<T>], level: f64) -> Vec<Stretch<T>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::FallingLimit;
     use super::*;
     use crate::real::Dual;
 
@@ -476,8 +489,16 @@ mod tests {
             Response::Hic { window: 3.7e-3 },
             Response::Clip { duration },
             Response::ContiguousClip { duration },
+            Response::Exceedance { limit: FALLING },
         ]
     }
+
+    /// A limit whose corners are within the signals here.
+    const FALLING: FallingLimit =
+        match FallingLimit::new(&[[0.0, 300.0], [3.3e-3, 150.0], [8e-3, 60.0]]) {
+            Some(limit) => limit,
+            None => panic!("a limit that falls"),
+        };
 
     /// A ramp from 0 to `height` at `end`, where the signal drops to 0.
     fn ramp<T: Real>(height: T, end: T) -> (Vec<T>, Vec<Jump<T>>) {
@@ -533,6 +554,12 @@ mod tests {
                 Response::ContiguousClip { duration },
                 h * (1.0 - duration / e),
                 [1.0 - duration / e, h * duration / e / e],
+            ),
+            // h (1 - d/E) beside the limit: largest at the second corner
+            (
+                Response::Exceedance { limit: FALLING },
+                h * (1.0 - duration / e) / 150.0,
+                [(1.0 - duration / e) / 150.0, h * duration / e / e / 150.0],
             ),
             // the best window does not depend on its beginning
             (

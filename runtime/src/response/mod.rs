@@ -7,6 +7,7 @@
 //! | `value` | the signal at a time |
 //! | `hic` | the head injury criterion |
 //! | `clip` | the level that is exceeded for a given duration |
+//! | `exceedance` | the load beside a limit that falls with its duration |
 //! | `olc` | the occupant load criterion of a pulse |
 //! | `answer` | the distance between the responses of two runs |
 //! | `filter` (feature `std`) | filters of channel frequency classes |
@@ -21,6 +22,7 @@ mod answer;
 #[cfg(feature = "std")]
 pub mod channel;
 mod clip;
+mod exceedance;
 mod extremes;
 #[cfg(feature = "std")]
 pub mod filter;
@@ -36,6 +38,7 @@ mod value;
 pub use answer::Answer;
 #[cfg(feature = "std")]
 pub use channel::Channel;
+pub use exceedance::{Exceedance, FallingLimit};
 pub use hic::STANDARD_GRAVITY;
 #[cfg(feature = "std")]
 pub use jumps::{Jump, move_with_jumps, reduce_with_jumps};
@@ -91,6 +94,12 @@ pub enum Response {
         /// \[s\]
         duration: f64,
     },
+    /// The largest ratio of a level of the size of the signal to the limit of the time for which this level is exceeded
+    /// in total. The size is linear between samples.
+    Exceedance {
+        /// In the unit of the signal.
+        limit: FallingLimit,
+    },
     /// The occupant load criterion of the acceleration of a vehicle along its path \[m/s²\]: the constant deceleration
     /// \[m/s²\] that stops an occupant over 235 mm after a free flight of 65 mm.
     Olc,
@@ -102,6 +111,7 @@ impl Response {
         match self {
             Response::Hic { .. } | Response::ContiguousClip { .. } => samples,
             Response::Clip { .. } => 2 * samples,
+            Response::Exceedance { .. } => 3 * samples,
             _ => 0,
         }
     }
@@ -148,9 +158,32 @@ fn answer<T: Real>(response: Response, samples: &[T], every: f64, scratch: &mut 
         Response::ContiguousClip { duration } => {
             clip::contiguous(samples, duration / every, scratch)?
         }
+        Response::Exceedance { limit } => exceedance_of(samples, &limit, every, scratch).ratio,
         Response::Olc => olc::olc(samples, every)?,
     };
     Some(samples.iter().fold(whole, |sum, a| sum + a.taint()))
+}
+
+/// The largest ratio of a load to a limit that falls with its duration, and the duration where it occurs, for `samples`
+/// that are `every` \[s\] apart. The ratio is that of [`Response::Exceedance`], and `scratch` is the same.
+#[inline(always)]
+pub fn exceedance_of<T: Real>(
+    samples: &[T],
+    limit: &FallingLimit,
+    every: f64,
+    scratch: &mut [T],
+) -> Exceedance<T> {
+    let (sizes, scratch) = scratch.split_at_mut(samples.len().min(scratch.len()));
+    for (size, sample) in sizes.iter_mut().zip(samples) {
+        *size = sample.abs();
+    }
+    let sizes = &*sizes;
+    let points = sizes.iter().enumerate();
+    let points = points.map(|(i, size)| [T::from_f64(i as f64 * every), *size]);
+    let length = (sizes.len() as f64 - 1.0) * every;
+    exceedance::worst(limit, points, length, |duration| {
+        clip::cumulative(sizes, duration / every, scratch)
+    })
 }
 
 /// A number of intervals as whole ones and a rest, 0 ≤ rest < 1; `None` where it is negative or beyond `most`. A

@@ -1,6 +1,6 @@
 //! Responses of signals whose answers are known in closed form, and their derivatives.
 
-use super::{Response, STANDARD_GRAVITY as G, reduce};
+use super::{FallingLimit, Response, STANDARD_GRAVITY as G, exceedance_of, reduce};
 use crate::real::{Dual, Real};
 use crate::test_scalars::Pair;
 use core::f64::consts::PI;
@@ -10,12 +10,23 @@ const HIC_15: Response = Response::Hic { window: 15e-3 };
 const HIC_36: Response = Response::Hic { window: 36e-3 };
 const CLIP: Response = Response::Clip { duration: 3e-3 };
 const CONTIGUOUS: Response = Response::ContiguousClip { duration: 3e-3 };
+/// A limit whose corners are within the signals here.
+const FALLING: Response = Response::Exceedance {
+    limit: limit(&[[0.0, 300.0], [4e-3, 250.0], [9e-3, 100.0]]),
+};
+
+const fn limit(corners: &[[f64; 2]]) -> FallingLimit {
+    match FallingLimit::new(corners) {
+        Some(limit) => limit,
+        None => panic!("a limit that falls"),
+    }
+}
 
 /// The shape of a pulse between 0 and 1, at most 1.
 type Shape = fn(f64) -> f64;
 
 /// One response of each kind.
-const ALL: [Response; 14] = [
+const ALL: [Response; 15] = [
     Response::Peak,
     Response::Minimum,
     Response::Magnitude,
@@ -30,6 +41,7 @@ const ALL: [Response; 14] = [
     HIC_15,
     CLIP,
     CONTIGUOUS,
+    FALLING,
 ];
 
 fn response<T: Real>(response: Response, samples: &[T], every: f64) -> T {
@@ -376,6 +388,145 @@ fn pulses_add_up_to_the_cumulative_clip() {
     }
 }
 
+/// The limits of UN R94: tension and shear of the neck, femur.
+const R94: [FallingLimit; 3] = [
+    limit(&[[0.0, 3300.0], [35e-3, 2900.0], [60e-3, 1100.0]]),
+    limit(&[
+        [0.0, 3100.0],
+        [25e-3, 1500.0],
+        [35e-3, 1500.0],
+        [45e-3, 1100.0],
+    ]),
+    limit(&[[0.0, 9070.0], [10e-3, 7580.0]]),
+];
+
+/// The largest ratio to a limit, and the duration where it occurs.
+fn exceedance<T: Real>(samples: &[T], limit: FallingLimit, every: f64) -> [T; 2] {
+    let kind = Response::Exceedance { limit };
+    let mut scratch = vec![T::from_f64(f64::NAN); kind.scratch(samples.len())];
+    let found = exceedance_of(samples, &limit, every, &mut scratch);
+    assert_eq!(found.ratio, response(kind, samples, every));
+    [found.ratio, found.duration]
+}
+
+#[test]
+fn a_limit_that_falls_is_a_polygon() {
+    let [tension, shear, _] = R94;
+    for (limit, duration, level) in [
+        (tension, 0.0, 3300.0),
+        (tension, 17.5e-3, 3100.0),
+        (tension, 35e-3, 2900.0),
+        (tension, 47.5e-3, 2000.0),
+        (tension, 60e-3, 1100.0),
+        (tension, 9.0, 1100.0),
+        (shear, 30e-3, 1500.0),
+        (shear, 40e-3, 1300.0),
+    ] {
+        assert!((limit.at(duration) - level).abs() < 1e-9, "{duration}");
+    }
+    for corners in [
+        &[][..],
+        &[[1e-3, 5.0]],
+        &[[0.0, 5.0], [0.0, 4.0]],
+        &[[0.0, 5.0], [1e-3, 6.0]],
+        &[[0.0, 5.0], [1e-3, 0.0]],
+        &[[0.0, f64::NAN]],
+        &[[0.0, 5.0]; 5],
+    ] {
+        assert!(FallingLimit::new(corners).is_none(), "{corners:?}");
+    }
+}
+
+/// A force that has the level of a corner for the duration of this corner keeps the limit just so, one that is a
+/// thousandth higher or 1 % longer does not; behind the last corner the duration does not matter.
+#[test]
+fn rectangles_meet_the_corners_of_their_limit() {
+    for limit in R94 {
+        let corners = limit.corners().iter().map(|[duration, _]| *duration);
+        let corners: Vec<f64> = corners.collect();
+        let last = corners[corners.len() - 1];
+        for duration in corners.into_iter().filter(|duration| *duration > 0.0) {
+            for every in [1e-4, 0.5e-4] {
+                let rectangle = |size: f64, length: f64, sign: f64| {
+                    let steps = (length / every).round() as usize;
+                    let inside = 100..=100 + steps;
+                    let of = |i: usize| sign * size * f64::from(inside.contains(&i));
+                    (0..2000).map(of).collect::<Vec<f64>>()
+                };
+                let level = limit.at(duration);
+                for sign in [1.0, -1.0] {
+                    let [ratio, at] = exceedance(&rectangle(level, duration, sign), limit, every);
+                    assert!(ratio <= 1.0 && ratio > 1.0 - 1e-11, "{duration}: {ratio}");
+                    assert!((at - duration).abs() < 1e-12, "{duration}: {at}");
+                }
+                let higher = rectangle(1.001 * level, duration, 1.0);
+                assert!((exceedance(&higher, limit, every)[0] - 1.001).abs() < 1e-11);
+                let lower = exceedance(&rectangle(0.999 * level, duration, 1.0), limit, every);
+                assert!((lower[0] - 0.999).abs() < 1e-11);
+                let longer = exceedance(&rectangle(level, 1.04 * duration, 1.0), limit, every);
+                let expected = level / limit.at(1.04 * duration);
+                assert!((longer[0] - expected).abs() < 1e-3 * expected, "{longer:?}");
+                let falls = duration < last && limit.at(1.04 * duration) < level;
+                assert_eq!(longer[0] > 1.0 + 1e-3, falls, "{duration}: {longer:?}");
+            }
+        }
+    }
+    // behind the last corner the duration is that of the whole load
+    let long: Vec<f64> = (0..1000)
+        .map(|i| 1100.0 * f64::from((100..=900).contains(&i)))
+        .collect();
+    let [ratio, at] = exceedance(&long, R94[0], 1e-4);
+    assert!(ratio <= 1.0 && ratio > 1.0 - 1e-11 && (at - 80e-3).abs() < 1e-12);
+    // two rectangles count together
+    let twice = |i: usize| 2900.0 * f64::from((100..=275).contains(&i) || (500..=675).contains(&i));
+    let twice: Vec<f64> = (0..1000).map(twice).collect();
+    let [ratio, at] = exceedance(&twice, R94[0], 1e-4);
+    assert!((ratio - 1.0).abs() < 1e-11 && (at - 35e-3).abs() < 1e-12);
+}
+
+/// A triangle of this length has the level h (1 - d/T) for d, so the ratio is a quotient that is monotonic between corners.
+#[test]
+fn a_triangle_exceeds_a_falling_limit_at_a_corner() {
+    for (length, duration) in [(70e-3, 0.0), (100e-3, 60e-3)] {
+        let samples: Vec<Dual<f64>> = pulse(triangle, 1.0 / G, length, 1e-3)
+            .iter()
+            .map(|a| Dual::variable(2000.0) * Dual::constant(*a))
+            .collect();
+        let [ratio, at] = exceedance(&samples, R94[0], 1e-3);
+        let expected = (1.0 - duration / length) / R94[0].at(duration);
+        // rounding of durations does not count
+        assert!((ratio.value / (2000.0 * expected) - 1.0).abs() < 1e-11);
+        assert!((ratio.slope / expected - 1.0).abs() < 1e-11);
+        assert!((at.value - duration).abs() < 1e-9);
+    }
+}
+
+/// No level of any duration is higher beside the limit than the one found, which is that of its duration.
+#[test]
+fn no_duration_exceeds_a_falling_limit_by_more() {
+    let limit = limit(&[[0.0, 3.0], [0.8, 2.5], [3.5, 2.0], [7.0, 0.4]]);
+    for seed in 0..1000 {
+        let samples = jagged(seed);
+        let sizes: Vec<f64> = samples.iter().map(|a| a.abs()).collect();
+        let last = (samples.len() - 1) as f64;
+        let at =
+            |duration: f64| response(Response::Clip { duration }, &sizes, 1.0) / limit.at(duration);
+        let [ratio, duration] = exceedance(&samples, limit, 1.0);
+        let here = at(duration.min(last));
+        assert!(
+            (here - ratio).abs() <= 1e-9 * ratio,
+            "{seed}: {here} {ratio}"
+        );
+        for k in 0..=600 {
+            let other = at(last * f64::from(k) / 600.0);
+            assert!(
+                other <= ratio * (1.0 + 1e-9),
+                "{seed}, {k}: {other} {ratio}"
+            );
+        }
+    }
+}
+
 #[test]
 fn clips_of_a_lane_do_not_depend_on_others() {
     for seed in 0..300 {
@@ -396,6 +547,7 @@ fn clips_of_a_lane_do_not_depend_on_others() {
             for clip in [
                 Response::Clip { duration },
                 Response::ContiguousClip { duration },
+                FALLING,
             ] {
                 let Pair(found) = response(clip, &pairs, 1.0);
                 for (found, samples) in found.iter().zip([&one, &other]) {

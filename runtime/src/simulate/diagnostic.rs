@@ -363,9 +363,12 @@ impl fmt::Display for OutOfRange<'_> {
             false => ("exceeds the last point", curve.last),
         };
         let (name, beyond) = (curve.name, (argument - end).abs());
+        // a pure number has no unit
+        let blank = if curve.unit.is_empty() { "" } else { " " };
+        let unit = curve.unit;
         write!(
             f,
-            "the argument of the curve \"{name}\" {side} ({}) by {}, and {how}",
+            "the argument of the curve \"{name}\" {side} ({}{blank}{unit}) by {}{blank}{unit}, and {how}",
             Short(end),
             Short(beyond)
         )

@@ -325,7 +325,7 @@ fn leaving_a_curve_names_the_force_and_the_time() {
         );
         assert!(
             text.contains(
-                "the argument of the curve \"spring: curve\" exceeds the last point (0.450)"
+                "the argument of the curve \"spring: curve\" exceeds the last point (0.450 m) by "
             ),
             "{text}"
         );

@@ -8,46 +8,77 @@ mod write;
 pub use bryant_table::mme::{MOST_CHANNELS, is_code};
 pub use write::{About, write};
 
+use crate::recording::Damaged;
 use crate::recording::text_of;
 use crate::{Channel, ReadError, Recording, Signal};
-use bryant_table::mme::{Test, Times, Wrong};
+use bryant_table::mme::{Damage, Test, Times, Wrong};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Reads a test by its file `TEST.mme`, or by a folder with one such file. Explicit times must be at equal intervals.
+/// Reads a test by its file `TEST.mme`, or by a folder with one such file. Explicit times must be at equal intervals. A
+/// channel whose file is missing or has an error is [damaged](Recording::damaged).
 ///
 /// # Errors
-/// A file is missing or has an error; the message has its line.
+/// No channel is sound, the file of the test or its list has an error, or it is not known which channel is damaged; the
+/// message has its line.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
     let mme = match path.is_dir() {
         true => the_only(path)?,
         false => path.to_owned(),
     };
-    let test = Test::read(&mme, &text_of).map_err(failed)?;
-    let mut recording = Recording::default();
+    let mut test = Test::read(&mme, &text_of).map_err(failed)?;
+    let mut channels = Vec::new();
+    let of = |damage: Damage| (damage.names, failed(damage.wrong));
+    let mut damaged: Vec<(Vec<String>, ReadError)> =
+        test.take_damaged().into_iter().map(of).collect();
     for (index, (name, title)) in test.names().into_iter().enumerate() {
-        let found = test.channel(index).map_err(failed)?;
-        let signal = match found.times {
-            Times::Even(first, interval) => Signal {
-                first,
-                interval,
-                values: found.values,
-            },
-            Times::Listed(times) => Signal::of_samples(&times, &found.values).ok_or_else(|| {
-                let message =
-                    "its times must be two or more, at equal intervals: sample the test evenly";
-                ReadError::content(test.file(index).0, 1, message)
-            })?,
-        };
-        recording.channels.push(Channel {
-            name: name.to_owned(),
-            title: title.to_owned(),
-            unit: found.unit.unwrap_or_default(),
-            doubt: found.doubt,
-            signal,
-        });
+        match channel(&test, index) {
+            Ok(found) => channels.push(Channel {
+                name: name.to_owned(),
+                title: title.to_owned(),
+                ..found
+            }),
+            Err(error) => {
+                let mut names = vec![name.to_owned(), title.to_owned()];
+                names.retain(|name| !name.is_empty());
+                names.dedup();
+                damaged.push((names, error));
+            }
+        }
     }
-    Ok(recording)
+    if channels.is_empty() && !damaged.is_empty() {
+        return Err(damaged.remove(0).1);
+    }
+    let damaged = damaged.into_iter().map(|(names, error)| Damaged {
+        names,
+        error: error.to_string(),
+    });
+    Ok(Recording {
+        channels,
+        damaged: damaged.collect(),
+    })
+}
+
+/// The samples of a channel, with what its file says about them.
+fn channel(test: &Test, index: usize) -> Result<Channel, ReadError> {
+    let found = test.channel(index).map_err(failed)?;
+    let signal = match found.times {
+        Times::Even(first, interval) => Signal {
+            first,
+            interval,
+            values: found.values,
+        },
+        Times::Listed(times) => Signal::of_samples(&times, &found.values).ok_or_else(|| {
+            let message =
+                "its times must be two or more, at equal intervals: sample the test evenly";
+            ReadError::content(test.file(index).0, 1, message)
+        })?,
+    };
+    Ok(Channel {
+        unit: found.unit.unwrap_or_default(),
+        doubt: found.doubt,
+        ..Channel::of(signal)
+    })
 }
 
 fn failed(wrong: Wrong) -> ReadError {

@@ -280,7 +280,9 @@ fn weightless(scene: &Scene) -> Option<String> {
             ForceKind::Contact(_) | ForceKind::Belt(_) | ForceKind::Airbag(_)
         )
     };
-    let any = scene.written.forces.iter().any(field);
+    // a field without acceleration is in the text alone, and so are forces that are switched off, which come last
+    let written = &scene.written.forces;
+    let any = written[..written.len() - scene.off].iter().any(field);
     (!any && model.forces.iter().any(holds)).then(|| {
         let (down, none) = match model.dimension {
             Dimension::Plane => ("[0, -1 gn]", "[0, 0]"),

@@ -49,7 +49,9 @@ pub fn measured(arguments: &Arguments, model: &Model, table: &Table) -> Result<V
         for (index, output) in model.outputs.iter().enumerate() {
             let code = output.code.as_deref();
             for name in code.into_iter().chain([output.name.as_str()]) {
-                if recording.channel(name) != Err(NoChannel::Unknown) {
+                if recording.channel(name) != Err(NoChannel::Unknown)
+                    || recording.damaged(name).is_some()
+                {
                     pairs.push((index, channel(&recording, path, name)?));
                     break;
                 }

@@ -6,13 +6,15 @@ use crate::command::criteria::places;
 use crate::command::response::Requested;
 use crate::criteria::{Row, Verdict, mode};
 use crate::simulation::Recording;
+use bryant_runtime::Response;
 use bryant_runtime::program::Kept;
-use bryant_runtime::response::Channel;
 use bryant_runtime::response::channel::Combination;
 use bryant_runtime::response::filter::Standard;
+use bryant_runtime::response::{Channel, exceedance_of};
 use bryant_study::criteria::limits::Limits;
 use bryant_study::criteria::{Judged, Missing, judge};
 use bryant_study::facts::{CriteriaFact, ModelFacts};
+use bryant_study::response::What;
 
 /// The criteria that a run is judged by.
 pub struct Criteria {
@@ -85,17 +87,27 @@ impl Criteria {
         there.map(Requested::of_study)
     }
 
-    /// Channels whose samples are kept for more than one number: the filtered signals of the neck, for the mode of Nij.
+    /// Channels whose samples are kept for more than one number, in the order of the criteria: the filtered signals of the
+    /// neck, for the mode of Nij, and those whose limit falls with the duration of the load.
     pub fn kept(&self) -> Vec<Kept> {
-        let neck = self.judged.iter().find_map(|one| {
-            let channel = one.response.as_ref().ok()?.channel;
-            matches!(channel.combination, Combination::Nij(_)).then_some(channel)
-        });
-        let signals = neck.iter().flat_map(|neck| {
-            let each = neck.outputs().iter();
-            each.filter_map(|output| Channel::of(&[*output], neck.filter, Combination::Itself))
-        });
-        let kept = signals.map(|channel| Kept {
+        let of = |one: &Judged| {
+            let Ok(response) = &one.response else {
+                return Vec::new();
+            };
+            let channel = response.channel;
+            match (channel.combination, response.what) {
+                (Combination::Nij(_), _) => {
+                    let each = channel.outputs().iter();
+                    let itself = |output: &usize| {
+                        Channel::of(&[*output], channel.filter, Combination::Itself)
+                    };
+                    each.filter_map(itself).collect()
+                }
+                (_, What::Exceedance { .. }) => vec![channel],
+                _ => Vec::new(),
+            }
+        };
+        let kept = self.judged.iter().flat_map(of).map(|channel| Kept {
             channel,
             in_place_of: None,
         });
@@ -114,15 +126,17 @@ impl Criteria {
             return None;
         }
         let mut answers = recording.answers.iter().skip(first);
+        let mut kept = recording.kept.iter().skip(kept).map(Vec::as_slice);
         let rows = self.judged.iter().map(|one| {
-            let mut detail = one.detail.clone();
+            let (mut detail, mut duration) = (one.detail.clone(), None);
             let value = one
                 .response
                 .as_ref()
                 .map_err(Missing::clone)
                 .and_then(|response| {
-                    if let (Combination::Nij(neck), Some([fx, fz, my, ..])) =
-                        (response.channel.combination, recording.kept.get(kept..))
+                    if let Combination::Nij(neck) = response.channel.combination
+                        && let (Some(fx), Some(fz), Some(my)) =
+                            (kept.next(), kept.next(), kept.next())
                     {
                         let mode = mode([fx, fz, my], &neck, [recording.first_time(), every]);
                         let both = [mode, std::mem::take(&mut detail)];
@@ -131,18 +145,27 @@ impl Criteria {
                         detail = both.join("; ");
                     }
                     let value = answers.next().map_or(f64::NAN, |answer| answer.value);
+                    if let What::Exceedance { limit } = response.what
+                        && let Some(samples) = kept.next()
+                    {
+                        let scratch = Response::Exceedance { limit }.scratch(samples.len());
+                        let mut scratch = vec![0.0; scratch];
+                        let worst = exceedance_of(samples, &limit, every, &mut scratch);
+                        duration = Some(worst.duration);
+                    }
                     match value.is_finite() {
-                        true => Ok(value / one.criterion.scale),
+                        true => Ok(value),
                         false => Err(Missing::Unusable("the run has no answer to it".to_owned())),
                     }
                 });
-            Row {
-                criterion: one.criterion,
-                limit: one.limit,
+            Row::new(
+                one.criterion,
+                one.limit.as_ref(),
                 value,
+                duration,
                 detail,
-                channels: one.channels.clone(),
-            }
+                one.channels.clone(),
+            )
         });
         Some(Verdict {
             // outputs already show their codes, so the occupant need not be named

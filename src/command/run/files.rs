@@ -316,7 +316,10 @@ fn write_mme(folder: &Path, model: &Model, recording: &Recording) -> Result<Path
         source: format!("bryant {}", env!("CARGO_PKG_VERSION")),
     };
     let path = folder.join(format!("{}.mme", model.name));
-    let recording = bryant_signal::Recording { channels };
+    let recording = bryant_signal::Recording {
+        channels,
+        damaged: Vec::new(),
+    };
     mme::write(folder, &model.name, &recording, &about)
         .map_err(|error| Error::system(format!("{}: {error}", path.display())))?;
     Ok(path)

@@ -261,7 +261,8 @@ pub fn known(place: &str, of: &str) -> Result<(), String> {
 /// sensor.
 pub fn part(place: &str) -> &str {
     match place {
-        "head-excursion" | "chest-deflection" | "femur-left" | "femur-right" => place,
+        "head-excursion" | "chest-deflection" | "femur-left" | "femur-right" | "knee-left"
+        | "knee-right" => place,
         _ if place.starts_with("head-w") => "head-w",
         _ => match place.rsplit_once('-') {
             Some((part, _)) => part,

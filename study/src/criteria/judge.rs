@@ -1,7 +1,7 @@
 //! Finds the criteria of a model, and the outputs from which they are computed.
 
 use super::choice::{Asked, Candidate, Found, ambiguous, choose, is_pattern, known};
-use super::limits::{self, Limits};
+use super::limits::{self, Limit, Limits};
 use super::{CRITERIA, Criterion, Missing, PLACES, Place};
 use crate::facts::{CriteriaFact, ModelFacts, OutputFact};
 use crate::quantity::dimension;
@@ -14,14 +14,49 @@ use bryant_runtime::response::filter::{Filter, Standard};
 pub struct Judged {
     /// The criterion.
     pub criterion: &'static Criterion,
-    /// Its limit, in the criterion's unit; `None` if it has no limit.
-    pub limit: Option<f64>,
+    /// Its limit; `None` if it has no limit.
+    pub limit: Option<Limit>,
     /// The response that computes its value \[SI\], or the reason why there is none.
     pub response: Result<Response, Missing>,
     /// A remark on it.
     pub detail: String,
     /// The places that it uses, each with the name and channel code of the output there.
     pub channels: Vec<(String, String)>,
+}
+
+/// How the number that a response computes is shown beside its limit.
+pub struct Shown {
+    /// The unit of both.
+    pub unit: &'static str,
+    /// SI value of that unit.
+    pub scale: f64,
+    /// The limit in that unit; `None` if there is none.
+    pub limit: Option<f64>,
+}
+
+impl Judged {
+    /// How the number that its response computes is shown. Of a limit that falls with the duration of the load, it is
+    /// the largest ratio of the load to the limit.
+    pub fn shown(&self) -> Shown {
+        let (unit, scale) = (self.criterion.unit, self.criterion.scale);
+        match self.limit {
+            None => Shown {
+                unit,
+                scale,
+                limit: None,
+            },
+            Some(Limit::Constant(limit)) => Shown {
+                unit,
+                scale,
+                limit: Some(limit),
+            },
+            Some(Limit::Falling(_)) => Shown {
+                unit: "",
+                scale: 1.0,
+                limit: Some(1.0),
+            },
+        }
+    }
 }
 
 /// The criteria of a model by a regulation: all criteria that the regulation limits, and those criteria without a limit
@@ -49,7 +84,7 @@ pub fn judge(facts: &ModelFacts, asked: &CriteriaFact) -> Result<(Limits, Vec<Ju
         };
         Judged {
             criterion,
-            limit: limits.limits.get(criterion.name).copied(),
+            limit: limits.of(criterion).cloned(),
             response,
             detail,
             channels,

@@ -1,8 +1,45 @@
 //! Limits by regulation and dummy, with their sources: `limits.json`.
 
+use super::Criterion;
+use bryant_runtime::response::FallingLimit;
 use bryant_runtime::response::channel::{Chest, Neck};
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
+
+/// A limit, in the unit in which its criterion is shown.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Limit {
+    /// One number.
+    Constant(f64),
+    /// Corners, each a duration \[ms\] and a level: the limit of a load that falls with the time for which a level of the
+    /// load is exceeded in total.
+    Falling(Vec<[f64; 2]>),
+}
+
+impl Limit {
+    /// The limit in SI, if it falls with the duration of the load; `scale` is the SI value of its unit.
+    pub fn falling(&self, scale: f64) -> Option<FallingLimit> {
+        let Limit::Falling(corners) = self else {
+            return None;
+        };
+        let corners = corners.iter().map(|[ms, level]| [ms / 1e3, level * scale]);
+        FallingLimit::new(&corners.collect::<Vec<_>>())
+    }
+
+    /// The limit in words: "4170 N", or "3300 N at 0 ms, 2900 N at 35 ms".
+    pub fn text(&self, unit: &str) -> String {
+        let with_unit = |level: &f64| format!("{level} {unit}").trim_end().to_owned();
+        match self {
+            Limit::Constant(limit) => with_unit(limit),
+            Limit::Falling(corners) => {
+                let each = corners.iter();
+                let each = each.map(|[ms, level]| format!("{} at {ms} ms", with_unit(level)));
+                each.collect::<Vec<_>>().join(", ")
+            }
+        }
+    }
+}
 
 /// The limits of a regulation for a dummy.
 #[derive(Clone, Debug, Deserialize)]
@@ -20,7 +57,7 @@ pub struct Limits {
     #[serde(default)]
     pub filters: BTreeMap<String, u16>,
     /// Limits by criterion, in the unit in which the criterion is shown.
-    pub limits: BTreeMap<String, f64>,
+    pub limits: BTreeMap<String, Limit>,
     /// Critical values of the neck; `None` if there is no such criterion.
     #[serde(default, deserialize_with = "neck")]
     pub nij: Option<Neck>,
@@ -29,6 +66,18 @@ pub struct Limits {
     pub chest: Option<Chest>,
     /// Critical moment \[N m\] and force \[N\] of the tibia; `None` if there is no such criterion.
     pub tibia: Option<[f64; 2]>,
+}
+
+impl Limits {
+    /// The limit of a criterion; `None` if there is none.
+    pub fn of(&self, criterion: &Criterion) -> Option<&Limit> {
+        self.limits.get(criterion.name)
+    }
+
+    /// The limit of a criterion in SI, if it falls with the duration of the load.
+    pub fn falling(&self, criterion: &Criterion) -> Option<FallingLimit> {
+        self.of(criterion)?.falling(criterion.scale)
+    }
 }
 
 /// The critical values of the neck as `limits.json` has them.
@@ -93,8 +142,8 @@ pub fn find(standard: &str, dummy: &str) -> Result<Limits, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::CRITERIA;
-    use super::all;
+    use super::super::{CRITERIA, Measure};
+    use super::{Limit, all, find};
 
     #[test]
     fn every_limit_is_of_a_criterion_and_positive() {
@@ -102,8 +151,15 @@ mod tests {
         assert!(all.len() >= 6);
         for limits in &all {
             for (name, limit) in &limits.limits {
-                assert!(CRITERIA.iter().any(|one| one.name == name), "{name}");
-                assert!(*limit > 0.0, "{name}");
+                let criterion = CRITERIA.iter().find(|one| one.name == name).unwrap();
+                match limit {
+                    Limit::Constant(limit) => assert!(*limit > 0.0, "{name}"),
+                    Limit::Falling(_) => {
+                        assert!(limits.falling(criterion).is_some(), "{name}");
+                        // others have no levels that last
+                        assert!(matches!(criterion.measure, Measure::Of(..)), "{name}");
+                    }
+                }
             }
             for (name, class) in &limits.filters {
                 let criterion = CRITERIA.iter().find(|one| one.name == name).unwrap();
@@ -116,6 +172,47 @@ mod tests {
             assert_eq!(limits.limits.contains_key("VC"), limits.chest.is_some());
             let of_tibia = limits.limits.contains_key("tibia left");
             assert_eq!(of_tibia, limits.tibia.is_some());
+            // what is judged on one side is judged on the other
+            for (name, limit) in &limits.limits {
+                if let Some(part) = name.strip_suffix("left") {
+                    let other = limits.limits.get(&format!("{part}right"));
+                    assert_eq!(other, Some(limit), "{name}");
+                }
+            }
+        }
+    }
+
+    /// The limits of UN R94 and R137 as the program pyisomme 0.0.3 has them.
+    #[test]
+    fn limits_are_those_of_their_source() {
+        let of = |standard: &str, dummy: &str, name: &str| {
+            let limits = find(standard, dummy).unwrap();
+            limits.limits[name].text("")
+        };
+        for (name, limit) in [
+            ("neck tension", "3300 at 0 ms, 2900 at 35 ms, 1100 at 60 ms"),
+            (
+                "neck shear",
+                "3100 at 0 ms, 1500 at 25 ms, 1500 at 35 ms, 1100 at 45 ms",
+            ),
+            ("femur right", "9070 at 0 ms, 7580 at 10 ms"),
+            ("knee left", "15"),
+            ("tibia force left", "8000"),
+        ] {
+            assert_eq!(of("UN R94", "Hybrid III 50M", name), limit, "{name}");
+        }
+        for (name, driver, passenger) in [
+            ("HIC36", "1000", "1000"),
+            ("head 3 ms", "80", "80"),
+            ("neck tension", "3300", "2900"),
+            ("neck shear", "3100", "2900"),
+            ("neck extension", "57", "57"),
+            ("chest deflection", "42", "34"),
+            ("VC", "1", "1"),
+            ("femur left", "9070", "7000"),
+        ] {
+            assert_eq!(of("UN R137", "Hybrid III 50M", name), driver, "{name}");
+            assert_eq!(of("UN R137", "Hybrid III 5F", name), passenger, "{name}");
         }
     }
 }

@@ -15,7 +15,7 @@ mod judge;
 pub mod limits;
 mod places;
 
-pub use judge::{Judged, judge, named};
+pub use judge::{Judged, Shown, judge, named};
 pub use places::{PLACES, Place, fits};
 
 use crate::response::What;
@@ -82,7 +82,7 @@ const CLIP: What = What::Clip { duration: 3e-3 };
 const ROTATION: [f64; 3] = [66.25, 56.45, 42.87];
 
 /// All criteria.
-pub const CRITERIA: [Criterion; 18] = {
+pub const CRITERIA: [Criterion; 22] = {
     use Combination::{Itself, Positive};
     use Measure::{NeckExtension, Nij, Of, Resultant, Rotation, Tibia, Viscous};
     use What::{Hic15, Hic36, Magnitude, Olc, Peak};
@@ -92,11 +92,10 @@ pub const CRITERIA: [Criterion; 18] = {
     const CFC1000: Option<Class> = Some(Class::Cfc1000);
     const TENSION: Measure = Of("neck-fz", Positive(1.0), Peak);
     const COMPRESSION: Measure = Of("neck-fz", Positive(-1.0), Peak);
-    const SHEAR: Measure = Of("neck-fx", Itself, Magnitude);
-    const DEFLECTION: Measure = Of("chest-deflection", Itself, Magnitude);
     const EXCURSION: Measure = Of("head-excursion", Itself, Peak);
-    const LEFT: Measure = Of("femur-left", Itself, Magnitude);
-    const RIGHT: Measure = Of("femur-right", Itself, Magnitude);
+    const fn of_size(place: &'static str) -> Measure {
+        Of(place, Itself, Magnitude)
+    }
     [
         criterion("HIC15", PURE, CFC1000, Resultant("head", Hic15)),
         criterion("HIC36", PURE, CFC1000, Resultant("head", Hic36)),
@@ -106,15 +105,24 @@ pub const CRITERIA: [Criterion; 18] = {
         criterion("Nij", PURE, CFC600, Nij),
         criterion("neck tension", NEWTON, CFC1000, TENSION),
         criterion("neck compression", NEWTON, CFC1000, COMPRESSION),
-        criterion("neck shear", NEWTON, CFC1000, SHEAR),
+        criterion("neck shear", NEWTON, CFC1000, of_size("neck-fx")),
         criterion("neck extension", ("N*m", 1.0), CFC600, NeckExtension),
         criterion("chest 3 ms", G, CFC180, Resultant("chest", CLIP)),
-        criterion("chest deflection", MM, CFC600, DEFLECTION),
+        criterion("chest deflection", MM, CFC600, of_size("chest-deflection")),
         criterion("VC", ("m/s", 1.0), CFC180, Viscous),
-        criterion("femur left", NEWTON, CFC600, LEFT),
-        criterion("femur right", NEWTON, CFC600, RIGHT),
+        criterion("femur left", NEWTON, CFC600, of_size("femur-left")),
+        criterion("femur right", NEWTON, CFC600, of_size("femur-right")),
+        criterion("knee left", MM, CFC180, of_size("knee-left")),
+        criterion("knee right", MM, CFC180, of_size("knee-right")),
         criterion("tibia left", PURE, CFC600, Tibia("tibia-left")),
         criterion("tibia right", PURE, CFC600, Tibia("tibia-right")),
+        criterion("tibia force left", NEWTON, CFC600, of_size("tibia-left-fz")),
+        criterion(
+            "tibia force right",
+            NEWTON,
+            CFC600,
+            of_size("tibia-right-fz"),
+        ),
         criterion("OLC", G, CFC60, Of("pulse", Itself, Olc)),
     ]
 };
@@ -189,7 +197,11 @@ impl Criterion {
                 (places, combination, *what, detail)
             }
             Measure::Of(place, combination, what) => {
-                (vec![(*place).to_owned()], *combination, *what, "")
+                let what = match limits.falling(self) {
+                    Some(limit) => What::Exceedance { limit },
+                    None => *what,
+                };
+                (vec![(*place).to_owned()], *combination, what, "")
             }
             Measure::Nij => {
                 let critical = limits

@@ -16,7 +16,7 @@ const fn place(name: &'static str, code: &'static str, unit: &'static str) -> Pl
 }
 
 /// All places, in the order of the keys of `criteria` in a model.
-pub const PLACES: [Place; 25] = [
+pub const PLACES: [Place; 27] = [
     place("head", "??HEADCG????ACR?|??HEAD00????ACR?", "m/s^2"),
     place("head-x", "??HEADCG????ACX?|??HEAD00????ACX?", "m/s^2"),
     place("head-y", "??HEADCG????ACY?|??HEAD00????ACY?", "m/s^2"),
@@ -36,6 +36,8 @@ pub const PLACES: [Place; 25] = [
     place("chest-deflection", "??CHST??????DSX?", "m"),
     place("femur-left", "??FEMRLE????FOZ?", "N"),
     place("femur-right", "??FEMRRI????FOZ?", "N"),
+    place("knee-left", "??KNSLLE????DSX?", "m"),
+    place("knee-right", "??KNSLRI????DSX?", "m"),
     place("tibia-left-mx", "??TIBILE????MOX?", "N*m"),
     place("tibia-left-my", "??TIBILE????MOY?", "N*m"),
     place("tibia-left-fz", "??TIBILE????FOZ?", "N"),
@@ -119,6 +121,7 @@ mod tests {
             ("chest-x", "11CHSTUP00H3ACXC"),
             ("chest-deflection", "11CHST0003H3DSXC"),
             ("chest-deflection", "11CHSTLEUPTHDSXC"),
+            ("knee-left", "11KNSLLE00H3DSXC"),
             ("tibia-left-my", "11TIBILEUPH3MOYB"),
         ] {
             assert!(fits(code, of(place)), "{place} {code}");

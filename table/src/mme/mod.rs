@@ -5,9 +5,10 @@
 //! unknown value; as a sample it is NaN. The samples of a channel are at equal intervals from the time of the first one
 //! (`implicit`), or at the times that another channel lists (`explicit`).
 //!
-//! Recordings and the curves of models are read by these rules. What contradicts itself is refused with its place: a
+//! Recordings and the curves of models are read by these rules. What contradicts itself is damage with its place: a
 //! channel of the list without a file, a file with another code than in the list, a key with two values, a number of
-//! samples that is not theirs, a gap between samples.
+//! samples that is not theirs, a gap between samples. A curve of a model is refused if any file of its test is damaged;
+//! a recording goes without a channel that is damaged, as long as it is known which one that is.
 
 mod lines;
 
@@ -70,6 +71,15 @@ pub enum Wrong {
         /// The error, with its place and the remedy.
         fault: Fault,
     },
+}
+
+/// A damaged channel.
+#[derive(Debug)]
+pub struct Damage {
+    /// The names that the channel may have: its code in its file, that in the list of channels, its title.
+    pub names: Vec<String>,
+    /// What is wrong.
+    pub wrong: Wrong,
 }
 
 /// Why no channel could be found by a name.
@@ -147,6 +157,8 @@ pub struct Test {
     files: Vec<File>,
     /// Indices of the files that are channels.
     channels: Vec<usize>,
+    /// Channels whose files are missing, or contradict themselves or the list.
+    damaged: Vec<Damage>,
 }
 
 /// A channel file.
@@ -172,26 +184,33 @@ impl Test {
     /// `Channel`, and of the names of the files in it, does not matter as long as it is the same for all letters.
     ///
     /// # Errors
-    /// A file cannot be read, or contradicts itself or the list.
+    /// A file cannot be read, the list contradicts itself, or it is not known which channel is damaged.
     pub fn read(mme: &Path, loader: &Loader<'_>) -> Result<Test, Wrong> {
         let mut test = Test {
             about: vec![mme.to_owned()],
             files: Vec::new(),
             channels: Vec::new(),
+            damaged: Vec::new(),
         };
         let lines = required(mme, loader)?;
         let (list, files) = found(mme, loader)?;
+        let numbers: Vec<u32> = files.iter().map(|(number, ..)| *number).collect();
         for (number, path, text) in files {
             let listed = list.as_ref().and_then(|list| list.code(number));
-            test.files.push(File::of(path, text, listed)?);
+            match File::of(path, text, listed) {
+                Ok(file) => test.files.push(file),
+                Err(damage) if damage.names.is_empty() => return Err(damage.wrong),
+                Err(damage) => test.damaged.push(*damage),
+            }
         }
         if let Some(list) = list {
-            list.check(&test.files)?;
+            test.damaged.extend(list.missing(&numbers)?);
             test.about.push(list.path);
         }
         let is_time = |index: &usize| test.files[*index].code.get(2..6) == Some("TIRS");
         test.channels = (0..test.files.len()).filter(|i| !is_time(i)).collect();
         match test.channels.is_empty() {
+            true if !test.damaged.is_empty() => Err(test.damaged.remove(0).wrong),
             true => Err(lines.wrong(
                 mme,
                 (1, 1, 1),
@@ -200,6 +219,22 @@ impl Test {
             )),
             false => Ok(test),
         }
+    }
+
+    /// The test, if no channel is damaged.
+    ///
+    /// # Errors
+    /// A channel is damaged.
+    pub fn whole(mut self) -> Result<Test, Wrong> {
+        match self.damaged.is_empty() {
+            true => Ok(self),
+            false => Err(self.damaged.remove(0).wrong),
+        }
+    }
+
+    /// Takes the channels whose files are missing, or contradict themselves or the list.
+    pub fn take_damaged(&mut self) -> Vec<Damage> {
+        std::mem::take(&mut self.damaged)
     }
 
     /// Names and titles of the channels. The name is the channel code; of a channel without one, the title or the name
@@ -332,36 +367,54 @@ impl List {
             .filter(|code| is_code(code))
     }
 
-    /// Checks that there are the files of all channels of the list.
-    fn check(&self, files: &[File]) -> Result<(), Wrong> {
+    /// The channels of the list of which there is no file; `there` are the numbers of the files.
+    fn missing(&self, there: &[u32]) -> Result<Vec<Damage>, Wrong> {
         let help = "look whether the test is complete, or take what is not there off the list";
-        for (number, _, pair) in &self.entries {
-            let ending = format!("{number:03}");
-            let is = |file: &File| file.path.extension().is_some_and(|other| *other == *ending);
-            if !files.iter().any(is) {
-                let message = format!("there is no file .{ending} of this channel");
-                return Err(self.lines.wrong(&self.path, pair.place, message, help));
+        let wrong =
+            |pair: &Pair, message: String| self.lines.wrong(&self.path, pair.place, message, help);
+        let mut damaged = Vec::new();
+        for (number, code, pair) in &self.entries {
+            if !there.contains(number) {
+                let wrong = wrong(
+                    pair,
+                    format!("there is no file .{number:03} of this channel"),
+                );
+                match is_code(code) {
+                    true => damaged.push(Damage {
+                        names: vec![code.clone()],
+                        wrong,
+                    }),
+                    false => return Err(wrong),
+                }
             }
         }
         let Some(pair) = self.lines.pair(&self.path, "Number of channels")? else {
-            return Ok(());
+            return Ok(damaged);
         };
+        // those that the list names are counted
+        let (files, known) = (there.len(), there.len() + damaged.len());
         match pair.value.parse::<usize>() {
-            Ok(count) if count > files.len() => {
-                let there = files.len();
-                let message = format!("the list has {count} channels, but there are {there} files");
-                Err(self.lines.wrong(&self.path, pair.place, message, help))
-            }
-            _ => Ok(()),
+            Ok(count) if count > known => Err(wrong(
+                pair,
+                format!("the list has {count} channels, but there are {files} files"),
+            )),
+            _ => Ok(damaged),
         }
     }
 }
 
 impl File {
     /// A channel file, whose code in the list is `listed`.
-    fn of(path: PathBuf, text: String, listed: Option<&str>) -> Result<File, Wrong> {
+    fn of(path: PathBuf, text: String, listed: Option<&str>) -> Result<File, Box<Damage>> {
         let lines = Lines::of(text);
-        let own = lines.pair(&path, "Channel code")?;
+        let damage = |names: &[&str], wrong: Wrong| {
+            let names = names.iter().filter(|name| !name.is_empty());
+            let mut names: Vec<String> = names.map(|name| (*name).to_owned()).collect();
+            names.dedup();
+            Box::new(Damage { names, wrong })
+        };
+        let own = lines.pair(&path, "Channel code");
+        let own = own.map_err(|wrong| damage(&[listed.unwrap_or_default()], wrong))?;
         let code = match own {
             // some programs write codes in lower case
             Some(pair) if is_code(&pair.value.to_ascii_uppercase()) => {
@@ -374,17 +427,19 @@ impl File {
             && is_code(&code)
             && code != listed
         {
-            return Err(lines.wrong(
+            let wrong = lines.wrong(
                 &path,
                 pair.place,
                 format!("the file says that this is {code}, and the list of channels {listed}"),
                 "look whether files were exchanged, and correct the one that is wrong",
-            ));
+            );
+            return Err(damage(&[&code, listed], wrong));
         }
-        let title = match lines.pair(&path, "Customer channel code")? {
-            Some(pair) => Some(pair),
-            None => lines.pair(&path, "Name of the channel")?,
+        let title = match lines.pair(&path, "Customer channel code") {
+            Ok(None) => lines.pair(&path, "Name of the channel"),
+            found => found,
         };
+        let title = title.map_err(|wrong| damage(&[&code], wrong))?;
         let title = title.map_or(String::new(), |pair| pair.value.clone());
         let name = match (code.as_str(), title.as_str()) {
             ("", "") => path

@@ -176,6 +176,71 @@ fn a_curve_counts_while_its_force_acts() {
     assert_eq!(kinds(&off, &job()), [""; 0]);
 }
 
+/// A curve that is left says by how much, in the unit of its abscissa: each law that has a curve of the motion.
+#[test]
+fn a_curve_that_is_left_says_its_unit() {
+    let curve = "{ points: [[-0.01, -1], [0, 0], [0.01, 1.5]], extrapolate: linear }";
+    let hysteresis = format!(
+        "{curve}, unloading: {{ points: [[-0.01, -0.5], [0, 0], [0.01, 0.5]], extrapolate: linear }}"
+    );
+    let belt = "{ points: [[0, 0], [0.01, 1], [0.02, 3]], extrapolate: linear }";
+    let ball = "elements: [{ name: b, mass: 1, cg: [0, 0], inertia: 1 }]\n    start: { position: [0, 1], velocity: [1, 0] }";
+    let wheel = "reference: fixed\n    elements: [{ name: b, mass: 1, cg: [0, 0], inertia: 1 }]\n    start: { rates: { b: 1 } }";
+    let slider = "reference: fixed\n    elements: [{ name: b, joint: { slider: x }, mass: 1, cg: [0, 0], inertia: 1 }]\n    start: { joint_rates: { b: 1 } }";
+    let turning =
+        "elements: [{ name: b, mass: 1, cg: [0, 0], inertia: 1 }]\n    start: { rates: { b: 1 } }";
+    let ends = "from: { on: one/b, at: [0, 0] }, to: { on: frame, at: [0, 0] }";
+    let far = "from: { on: one/b, at: [0, 0] }, to: { on: frame, at: [-1, 1] }";
+    let pressed = "ellipsoid: { on: one/b, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0.15, 0], normal: [-1, 0] }";
+    let of_plane = "{ points: [[0, 0], [0.005, 1], [0.01, 4]], extrapolate: linear }";
+    for (system, force, unit) in [
+        (wheel, format!("joint: one/b, elastic: {curve}"), " rad"),
+        (
+            wheel,
+            format!("joint: one/b, elastic: {hysteresis}"),
+            " rad",
+        ),
+        (slider, format!("joint: one/b, elastic: {curve}"), " m"),
+        (
+            ball,
+            format!("spring: s, {far}, length: 1, elastic: {curve}"),
+            " m",
+        ),
+        (
+            ball,
+            format!("bushing: s, {ends}, along: {{ x: {{ elastic: {curve} }} }}"),
+            " m",
+        ),
+        (
+            turning,
+            format!("bushing: s, {ends}, about: {{ y: {{ elastic: {curve} }} }}"),
+            " rad",
+        ),
+        (
+            ball,
+            format!("contact: s, {pressed}, elastic: {of_plane}"),
+            " m",
+        ),
+        (ball, format!("belt: s, {far}, force: {belt}"), ""),
+    ] {
+        let text = format!(
+            "model: left\ndimension: 2\nsystems:\n  - name: one\n    {system}\nforces:\n  - {{ {force} }}\noutputs: [{{ name: x, of: one/b, what: position, component: x }}]\n\
+             run: {{ duration: 0.2 s, every: 0.1 s }}\n"
+        );
+        let doubts = go(&text, &job()).doubts;
+        let left = doubts.iter().find(|doubt| doubt.kind == "curve");
+        let said = &left.unwrap_or_else(|| panic!("{doubts:?}\n{text}")).message;
+        // (0.0100 m) by 0.123 m, and
+        let (_, rest) = said.split_once(" point (").expect(said);
+        let (point, rest) = rest.split_once(") by ").expect(said);
+        let (beyond, _) = rest.split_once(", and").expect(said);
+        for number in [point, beyond] {
+            let number = number.strip_suffix(unit).expect(said);
+            assert!(number.parse::<f64>().is_ok(), "{number}: {said}");
+        }
+    }
+}
+
 #[test]
 fn a_line_through_nothing_goes_on_for_ever() {
     for (curve, doubts) in [

@@ -120,7 +120,7 @@ fn push<'g>(
     let mut resists = Vec3::zero(graph);
     for (i, law) in bushing.along.iter().enumerate() {
         let way = (format!("along {}", AXES[i]), displacement.0[i], rates.0[i]);
-        resists.0[i] = resistance(law, way, setting, applied);
+        resists.0[i] = resistance(law, "m", way, setting, applied);
     }
     let force = axes.times(resists);
     applied.apply(first, offset, force);
@@ -176,7 +176,7 @@ fn turn_as_a_whole<'g>(
         ..bushing.turn.clone()
     };
     let way = ("about turn".to_owned(), angle, axis.dot(omega));
-    let mut moment = resistance(&law, way, setting, applied) * axis;
+    let mut moment = resistance(&law, "rad", way, setting, applied) * axis;
     if let Some(damping) = &bushing.turn.damping {
         let resists = gate.of_vector(number(graph, damping) * omega);
         let work = format!("bushing {name}: damping about turn");
@@ -221,7 +221,7 @@ fn turn<'g>(
             Dimension::Plane => continue,
         };
         let way = (format!("about {}", AXES[i]), angle, direction.dot(omega));
-        moment = moment + resistance(law, way, setting, applied) * direction;
+        moment = moment + resistance(law, "rad", way, setting, applied) * direction;
         angles[i] = angle;
     }
     applied.turn(first, moment);
@@ -239,9 +239,10 @@ fn axes<'g>(setting: Setting<'_, 'g>, mount: &Mount) -> Mat3<'g> {
     setting.motion.body(mount.on.on).rotation.product(&own)
 }
 
-/// The force or moment f + c ẋ of one direction, from its coordinate and rate.
+/// The force or moment f + c ẋ of one direction, from its coordinate, which has this unit, and its rate.
 fn resistance<'g>(
     law: &Direction,
+    unit: &'static str,
     (way, value, rate): (String, Expr<'g>, Expr<'g>),
     setting: Setting<'_, 'g>,
     applied: &mut AppliedForces<'g>,
@@ -253,7 +254,7 @@ fn resistance<'g>(
     let mut resists = graph.constant(0.0);
     if let Some(elastic) = &law.elastic {
         let (which, argument) = (format!("elastic curve {way}"), move || value);
-        applied.curve_of_state(&owner, &which, elastic, Acts::Everywhere, argument);
+        applied.curve_of_state(&owner, &which, unit, elastic, Acts::Everywhere, argument);
         applied.onset_of_curve(&format!("{owner} {way}"), gate, elastic, argument, rate);
         applied.corners(&owner, &which, gate, elastic, argument, move || rate);
         let force = gate.of(curve(graph, elastic, value));

@@ -213,9 +213,8 @@ impl Joint {
 
 impl Keys for Joint {
     const KEY: &'static str = "joint";
-    const TWICE: Option<&'static str> = Some(
-        "give one of them a name: `name: broken`; it then is `joint SYSTEM/ELEMENT/broken`. Laws about the same rotations may also stand in one force",
-    );
+    const TWICE: Option<&'static str> =
+        Some("give one of them a name: `name: broken`; it then is `joint SYSTEM/ELEMENT/broken`");
 
     fn header(&self) -> Header<'_> {
         Header {

@@ -56,7 +56,14 @@ fn apply<'g>(
     if let Some(elastic) = &spring.elastic {
         let curves = applied.curves_so_far();
         let argument = move || elongation;
-        applied.curve_of_state(&owner, "elastic curve", elastic, Acts::Everywhere, argument);
+        applied.curve_of_state(
+            &owner,
+            "elastic curve",
+            "m",
+            elastic,
+            Acts::Everywhere,
+            argument,
+        );
         applied.onset_of_curve(&owner, gate, elastic, argument, rate);
         applied.corners(
             &owner,

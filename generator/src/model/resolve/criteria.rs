@@ -113,8 +113,15 @@ fn name_channel(resolver: &mut Resolver<'_>, index: usize, key: &str, at: At<'_>
         by: &by,
         at,
     };
-    // the user chooses the place and axes of an excursion or a pulse
-    if ["head_excursion", "chest_deflection", "pulse"].contains(&key) {
+    // the user chooses the place and axes of an excursion, of what slides, or of a pulse
+    let own = [
+        "head_excursion",
+        "chest_deflection",
+        "knee_left",
+        "knee_right",
+        "pulse",
+    ];
+    if own.contains(&key) {
         return;
     }
     if let Some((quantity, channel)) = channel::channel(resolver, output.quantity.clone(), wanted) {

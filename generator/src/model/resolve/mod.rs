@@ -87,6 +87,8 @@ pub struct Resolved {
     /// The model with everything that the text mentions and that could be resolved. Forces that are switched off come
     /// after the others.
     pub written: Model,
+    /// Number of forces that are switched off.
+    pub off: usize,
     /// The criteria by which a run is judged, if the text has any.
     pub criteria: Option<Criteria>,
     /// The key of the law and the name of each force, in the order of the texts.
@@ -272,11 +274,13 @@ impl<'a> Resolver<'a> {
             digest: String::new(),
         };
         let mut written = model.clone();
+        let off = self.off.len();
         written.forces.append(&mut self.off);
         model.normalize();
         Some(Resolved {
             model,
             written,
+            off,
             criteria,
             owners: self.owners,
         })

@@ -342,6 +342,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
     let watched = facts.curves.iter().map(|watched| {
         let Watched {
             name,
+            unit,
             told,
             kind,
             ..
@@ -349,7 +350,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let ([first, last], [start, end]) = (watched.range.map(number), watched.ends.map(number));
         let extrapolate = library::extrapolate(watched.extrapolate);
         let kind = match kind {
-            crate::equations::Watched::Curve(_) => quote!(CurveKind::Curve),
+            crate::equations::Watched::Curve(..) => quote!(CurveKind::Curve),
             crate::equations::Watched::Bearing => quote!(CurveKind::Bearing),
             crate::equations::Watched::HalfTurn => quote!(CurveKind::HalfTurn),
             crate::equations::Watched::Volume => quote!(CurveKind::Volume),
@@ -359,7 +360,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
                 quote!(CurveKind::Direction(#i))
             }
         };
-        quote!(CurveInfo { name: #name, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told, kind: #kind })
+        quote!(CurveInfo { name: #name, unit: #unit, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told, kind: #kind })
     });
     let outputs = facts
         .outputs

@@ -269,7 +269,7 @@ fn segment<'g>(
     let curves = applied.curves_so_far();
     let one = graph.constant(1.0);
     let below = move || webbing.once_locked(elongation, -one);
-    applied.curve_of_state(&owner, "curve", &belt.force, Acts::AboveFirst, below);
+    applied.curve_of_state(&owner, "curve", "", &belt.force, Acts::AboveFirst, below);
     let (elastic, permanent_set) = elastic(law, applied, &owner, span / webbing.length, below);
     let mut segment = Segment {
         owner,

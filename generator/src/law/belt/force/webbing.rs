@@ -216,7 +216,14 @@ impl<'g> Webbing<'g> {
         let ((index, given), (_, spool)) = (self.film?, self.retractor?);
         let (graph, film) = (law.graph, law.belt.film_spool.as_ref()?);
         let owner = format!("belt {}", law.name);
-        applied.curve_of_state(&owner, "film spool", film, Acts::Everywhere, move || given);
+        applied.curve_of_state(
+            &owner,
+            "film spool",
+            "m",
+            film,
+            Acts::Everywhere,
+            move || given,
+        );
         let resistance = graph.constant(RESISTANCE);
         let pulled = (tension - spool - curve(graph, film, given)) / resistance;
         let back = given / graph.constant(-BACK);

@@ -324,7 +324,9 @@ fn pressed<'g>(
         applied.kink(format!("{owner}: touches"), move || penetration);
     }
     if let Some(curve) = &contact.elastic {
-        applied.curve_of_state(owner, "curve", curve, Acts::AboveFirst, move || penetration);
+        applied.curve_of_state(owner, "curve", "m", curve, Acts::AboveFirst, move || {
+            penetration
+        });
     }
     let stored = match (&contact.elastic, &contact.hysteresis) {
         _ if touch.moving.is_empty() => zero,

@@ -385,7 +385,14 @@ pub fn elastic_torque<'g>(
     rate: Expr<'g>,
     unit: &'static str,
 ) -> (Expr<'g>, [Expr<'g>; 2]) {
-    applied.curve_of_state(owner, "elastic curve", elastic, Acts::Everywhere, argument);
+    applied.curve_of_state(
+        owner,
+        "elastic curve",
+        unit,
+        elastic,
+        Acts::Everywhere,
+        argument,
+    );
     applied.onset_of_curve(owner, gate, elastic, argument, rate);
     applied.corners(owner, "elastic curve", gate, elastic, argument, move || {
         rate
