@@ -61,7 +61,7 @@ use bryant_runtime::{
 
 bryant_runtime::use_nalgebra!(SMatrix, SVector);
 
-const _: () = bryant_runtime::check_generated_code_version(16);
+const _: () = bryant_runtime::check_generated_code_version(17);
 
 /// Length of q.
 pub const COORDINATES: usize = 2;
@@ -71,18 +71,6 @@ pub const VELOCITIES: usize = 2;
 
 /// Number of outputs.
 pub const OUTPUTS: usize = 3;
-
-/// Number of event functions.
-pub const EVENT_FUNCTIONS: usize = 0;
-
-/// Number of kinks.
-pub const KINKS: usize = 0;
-
-/// Number of powers.
-pub const POWERS: usize = 2;
-
-/// Number of curves of the state.
-pub const CURVES: usize = 0;
 
 /// What the model leaves adjustable, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -369,12 +357,7 @@ impl<T: Real> Mechanism<T> {
     }
 
     /// Power of each effect \[W\], in the order of `INFO.powers`: together the rate of the kinetic energy.
-    pub fn powers_at(
-        &self,
-        _t: T,
-        q: &[T; COORDINATES],
-        v: &[T; VELOCITIES],
-    ) -> [T; POWERS] {
+    pub fn powers_at(&self, _t: T, q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; 2] {
         let num = T::from_f64;
         let &[upper_phi, lower_phi] = q;
         let &[upper_omega, lower_omega] = v;
@@ -458,11 +441,6 @@ impl<T: Real> Model<T> for Mechanism<T> {
     type With<U: Real> = Mechanism<U>;
     type Parameters = Parameters<T>;
     type State = [T; STATE];
-    type Outputs = [T; OUTPUTS];
-    type EventFunctions = [T; EVENT_FUNCTIONS];
-    type Kinks = [T; KINKS];
-    type Powers = [T; POWERS];
-    type Curves = [T; CURVES];
     const INFO: &'static Info = &INFO;
     #[inline(always)]
     fn new(parameters: Parameters<T>) -> Self {
@@ -498,20 +476,20 @@ impl<T: Real> Model<T> for Mechanism<T> {
         self.each_coordinate_rate(q, v, rate);
     }
 
+    fn kinetic_energy(&self, t: T, y: &[T; STATE], results: &mut [T]) {
+        let (q, v) = parts(y);
+        results.copy_from_slice(&[self.kinetic_energy_at(t, q, v)]);
+    }
+
+    fn powers(&self, t: T, y: &[T; STATE], results: &mut [T]) {
+        let (q, v) = parts(y);
+        results.copy_from_slice(&self.powers_at(t, q, v));
+    }
+
     #[inline(always)]
-    fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
+    fn outputs(&self, t: T, y: &[T; STATE], results: &mut [T]) {
         let (q, v) = parts(y);
-        self.outputs_at(t, q, v)
-    }
-
-    fn kinetic_energy(&self, t: T, y: &[T; STATE]) -> T {
-        let (q, v) = parts(y);
-        self.kinetic_energy_at(t, q, v)
-    }
-
-    fn powers(&self, t: T, y: &[T; STATE]) -> [T; POWERS] {
-        let (q, v) = parts(y);
-        self.powers_at(t, q, v)
+        results.copy_from_slice(&self.outputs_at(t, q, v));
     }
 
     fn violated(&self) -> Option<usize> {

@@ -342,7 +342,7 @@ fn event_functions(from: &Source<'_>) -> Option<Specification> {
 
 fn kinks(from: &Source<'_>) -> Option<Specification> {
     let kinks = some(&from.equations.kinks)?;
-    let results = Results::Array(Length::Kinks);
+    let results = Results::Array(Length::Number(kinks.len()));
     Some(Specification {
         documentation: "Functions whose change of sign is where a force law is not smooth, in the order of `INFO.kinks`.",
         roots: values(kinks),
@@ -372,7 +372,7 @@ fn onsets(from: &Source<'_>) -> Option<Specification> {
 fn curves(from: &Source<'_>) -> Option<Specification> {
     let curves = some(&from.equations.curves)?;
     let names = curves.iter().map(|curve| snake(&curve.name));
-    let results = Results::Array(Length::Curves);
+    let results = Results::Array(Length::Number(curves.len()));
     Some(Specification {
         documentation: "What the curves of the state are evaluated at, the bearings of bent joints and the directions of contacts, in the order of `INFO.curves`.",
         roots: curves.iter().map(|curve| curve.argument).collect(),
@@ -417,7 +417,7 @@ fn kinetic_energy(from: &Source<'_>) -> Option<Specification> {
 
 fn powers(from: &Source<'_>) -> Option<Specification> {
     let powers = some(&from.equations.powers)?;
-    let results = Results::Array(Length::Powers);
+    let results = Results::Array(Length::Number(powers.len()));
     Some(Specification {
         documentation: "Power of each effect \\[W\\], in the order of `INFO.powers`: together the rate of the kinetic energy.",
         roots: values(powers),

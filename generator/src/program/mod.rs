@@ -48,7 +48,7 @@ pub(crate) use assemble::neighbours;
 pub use assemble::{counted_lists, lists};
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
 pub use header::header;
-pub use join::Combination;
+pub use join::Methods;
 pub use list::{Input, List, Operation, Value};
 pub use lists::{Curve, Lists, Routine};
 

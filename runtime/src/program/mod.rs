@@ -219,7 +219,7 @@ impl Entry {
         Ok(())
     }
 
-    /// The state after a discrete update ([`Dynamics::renew`](crate::Dynamics::renew)).
+    /// The state after a discrete update ([`Dynamics::renewed`](crate::Dynamics::renewed)).
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
@@ -232,8 +232,7 @@ impl Entry {
     ) -> Result<(), RunError> {
         let lengths = [("state", renewed.len(), self.info.state_length())];
         let model = self.at(parameters, y, &lengths)?;
-        renewed.copy_from_slice(y);
-        model.renew(t, renewed);
+        model.renewed(t, y, renewed);
         Ok(())
     }
 

@@ -26,9 +26,6 @@ impl Library {
             "STATE",
             "OUTPUTS",
             "EVENT_FUNCTIONS",
-            "KINKS",
-            "POWERS",
-            "CURVES",
             "INFO",
         ];
         let mut names = Names::with(&taken);
