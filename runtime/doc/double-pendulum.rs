@@ -293,7 +293,7 @@ impl<T: Real> Mechanism<T> {
         );
     }
 
-    /// q̇(q, v).
+    /// The rate of q, from q and v alone.
     #[inline(always)]
     pub fn coordinate_rates_at(
         &self,
@@ -319,12 +319,12 @@ impl<T: Real> Mechanism<T> {
         writer.put(1, lower_omega);
     }
 
-    /// What parameters must keep, in the order of `INFO.conditions`.
+    /// What parameters must keep.
     pub fn conditions(&self) -> [T; 1] {
         [self.parameters.brake]
     }
 
-    /// T of all elements \[J\].
+    /// The kinetic energy T of all elements, in J.
     pub fn kinetic_energy_at(
         &self,
         _t: T,
@@ -356,7 +356,7 @@ impl<T: Real> Mechanism<T> {
         kinetic_energy
     }
 
-    /// Power of each effect \[W\], in the order of `INFO.powers`: together the rate of the kinetic energy.
+    /// Power of each effect, in W: together the rate of the kinetic energy.
     pub fn powers_at(&self, _t: T, q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; 2] {
         let num = T::from_f64;
         let &[upper_phi, lower_phi] = q;
@@ -383,7 +383,7 @@ impl<T: Real> Mechanism<T> {
         [power_field_gravity, power_joint_arm_lower_damping]
     }
 
-    /// What the scene asks to see, in the order and units of `INFO.outputs`.
+    /// What the scene asks to see.
     #[inline(always)]
     pub fn outputs_at(
         &self,

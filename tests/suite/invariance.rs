@@ -6,6 +6,7 @@
 
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
+use bryant_generator::method::Method;
 use bryant_generator::model::{
     Against, Attachment, Body, Dimension, FieldComponent, ForceKind, Model, Number, Reference,
     ScaledCurve,
@@ -144,7 +145,7 @@ fn a_turned_and_moved_scene_has_equal_accelerations_and_powers() {
         };
         let [here, there] = [&model, &moved].map(|model| derive_with(model, options));
         let roots = |equations: &bryant_generator::equations::Equations| -> Vec<NodeId> {
-            let powers = equations.powers.iter().map(|p| p.value);
+            let powers = equations.section(Method::Powers).iter().map(|p| p.value);
             equations
                 .accelerations
                 .iter()

@@ -50,6 +50,7 @@ mod mass_matrix;
 mod momentum;
 pub(crate) mod numbers;
 mod outputs;
+mod sections;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod spatial;
@@ -60,6 +61,7 @@ use crate::equations::{Equations, LawState, Named, Onset, Route};
 use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
+use crate::method::Method;
 use crate::model::{Model, System};
 use augmented::{AugmentedTree, Omitted};
 use force::AppliedForces;
@@ -212,10 +214,7 @@ fn in_graph(
         accelerations: &accelerations,
     };
     let outputs = outputs::outputs(&scene);
-    let kinetic_energy = energy::kinetic_energy(&scene);
-    let powers = energy::powers(&scene);
-    let momentum = momentum::momentum(&scene);
-    let external_wrench = momentum::external_wrench(&scene);
+    let sections = sections::of(&scene);
     let triggers = scene.triggers();
     force::switch::complete(graph, model, &mut applied, &triggers);
     let kinks = applied.kinks(graph);
@@ -228,8 +227,10 @@ fn in_graph(
     }
 
     let mut needed = [&accelerations[..], &outputs, &matrices.applied_forces].concat();
-    needed.extend(powers.iter().map(|(_, power)| *power));
     needed.extend(applied.states.auxiliaries.iter().map(|state| state.next));
+    let mut needed = ids(&needed);
+    let powers = sections.iter().filter(|of| of.method == Method::Powers);
+    needed.extend(powers.flat_map(|of| &of.values).map(|of| of.value));
     Equations {
         initial_coordinates: ids(&started.q),
         initial_velocities: ids(&started.v),
@@ -259,12 +260,9 @@ fn in_graph(
         curves,
         conditions,
         pivots: named(&pivots),
-        kinetic_energy: kinetic_energy.id(),
-        powers: named(&powers),
-        momentum: ids(&momentum),
-        external_wrench: ids(&external_wrench),
+        sections,
         outputs: ids(&outputs),
-        curves_of_time: curves_of_time::of(graph, &ids(&needed)),
+        curves_of_time: curves_of_time::of(graph, &needed),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
         velocities: layout.velocities.clone(),
