@@ -226,9 +226,14 @@ impl<'m> Motion<'m> {
         let velocities = motion.velocities();
         motion.state[velocities].copy_from_slice(&motion.kept);
         model.coordinate_rates(&motion.state, &mut motion.drift);
-        motion.model.renew(time, &mut motion.state);
+        motion.renew();
         motion.look();
         motion
+    }
+
+    fn renew(&mut self) {
+        let state = self.state.clone();
+        self.model.renewed(self.time, &state, &mut self.state);
     }
 
     fn coordinates(&self) -> usize {
@@ -372,7 +377,7 @@ impl<'m> Motion<'m> {
             }
         }
         self.model.normalize(&mut moved.state);
-        self.model.renew(self.time, &mut moved.state);
+        moved.renew();
         moved.look();
         moved
     }
@@ -410,8 +415,7 @@ impl<'m> Motion<'m> {
                 self.last_step = h;
                 self.step_length = (h * change.clamp(0.2, 5.0)).min(LONGEST_STEP);
                 self.model.normalize(&mut next);
-                self.model.renew(self.time, &mut next);
-                self.state = next;
+                self.model.renewed(self.time, &next, &mut self.state);
                 self.look();
                 return true;
             }

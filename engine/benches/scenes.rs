@@ -15,7 +15,7 @@ use bryant_runtime::batch::rows::{Asked, Job, rows};
 use bryant_runtime::batch::{Pace, Settings as BatchSettings};
 use bryant_runtime::simulate::{Watch, run};
 use bryant_runtime::{
-    Adjustable, Arrival, Dynamics, Family, Info, Real, Response, Settings, Tolerances, Width,
+    Adjustable, Dynamics, Family, Info, Real, Response, Section, Settings, Tolerances, Width,
 };
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -393,23 +393,30 @@ macro_rules! methods {
             derivative(t: T, y: &[T], rate: &mut [T]);
             coordinate_rates(y: &[T], rate: &mut [T]);
             jacobian(t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool;
-            outputs(t: T, y: &[T], outputs: &mut [T]);
             normalize(y: &mut [T]);
-            renew(t: T, y: &mut [T]);
-            renew_by(t: T, y: &mut [T], event_functions: &[T]);
-            event_functions(t: T, y: &[T], event_functions: &mut [T]);
-            kinks(t: T, y: &[T], kinks: &mut [T]);
-            onsets(t: T, y: &[T], onsets: &mut [T]);
-            curves(t: T, y: &[T], arguments: &mut [T]);
             smallest_pivot(t: T, y: &[T]) -> Option<(usize, T)>;
             violated() -> Option<usize>;
-            kinetic_energy(t: T, y: &[T]) -> T;
-            powers(t: T, y: &[T], powers: &mut [T]);
-            momentum(t: T, y: &[T]) -> [T; 6];
-            external_wrench(t: T, y: &[T]) -> [T; 6];
-            exchange(t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]);
-            arrive(t: T, y: &[T], arrival: &mut Arrival<'_, T>);
             kink_after(t: f64) -> T;
+        }
+
+        fn section(&self, section: Section, t: T, y: &[T], results: &mut [T]) {
+            let start = Instant::now();
+            self.model.section(section, t, y, results);
+            let time = start.elapsed().as_secs_f32();
+            let mut counts = self.counts.borrow_mut();
+            counts.entry(section.name()).or_default().push(time);
+        }
+
+        fn sections(&self, t: T, y: &[T], wanted: &mut [(Section, &mut [T])]) {
+            let start = Instant::now();
+            self.model.sections(t, y, wanted);
+            let time = start.elapsed().as_secs_f32();
+            // the powers alone are wanted within a step
+            let name = match wanted.len() {
+                2 => "exchange",
+                _ => "arrive",
+            };
+            self.counts.borrow_mut().entry(name).or_default().push(time);
         }
     };
 }

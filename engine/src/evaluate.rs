@@ -5,19 +5,19 @@ use crate::execute::{Execute, Given};
 use crate::interpret::Interpreter;
 use crate::model::Shared;
 use crate::native::{Call, Compiled, compile};
+use crate::sets::Sets;
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Combination, List, Method};
+use bryant_generator::program::{List, Method, Methods};
 use bryant_runtime::Real;
 use std::cell::{OnceCell, RefCell};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The machine code of a model over one scalar: of each list, once compiled; `None` where compilation was tried and there is no code.
 ///
 /// A list is compiled when it runs for the first time. Its code depends on the scalar and the processor alone, so all runs of an engine share it.
 #[derive(Debug)]
 pub struct Codes<T> {
-    methods: [OnceLock<Option<Code<T>>>; Method::ALL.len()],
-    combined: [OnceLock<Option<Code<T>>>; Combination::ALL.len()],
+    sets: Sets<Option<Code<T>>>,
     /// Code of some of the outputs.
     outputs: Mutex<Last<T>>,
 }
@@ -34,24 +34,16 @@ type Last<T> = Option<(Box<[usize]>, Chosen<T>)>;
 impl<T> Default for Codes<T> {
     fn default() -> Self {
         Codes {
-            methods: [const { OnceLock::new() }; Method::ALL.len()],
-            combined: [const { OnceLock::new() }; Combination::ALL.len()],
+            sets: Sets::default(),
             outputs: Mutex::new(None),
         }
     }
 }
 
 impl<T: Real> Codes<T> {
-    fn method(&self, shared: &Shared, method: Method) -> Option<&Code<T>> {
-        let code = || code(shared, shared.lists.list(method));
-        self.methods[method as usize].get_or_init(code).as_ref()
-    }
-
-    fn combined(&self, shared: &Shared, combination: Combination) -> Option<&Code<T>> {
-        let code = || code(shared, shared.combined(combination));
-        self.combined[combination as usize]
-            .get_or_init(code)
-            .as_ref()
+    fn of(&self, shared: &Shared, methods: Methods) -> Option<&Option<Code<T>>> {
+        let list = shared.list(methods)?;
+        self.sets.get(methods, || code(shared, list))
     }
 
     fn outputs(&self, shared: &Shared, wanted: &[usize]) -> Chosen<T> {
@@ -61,13 +53,15 @@ impl<T: Real> Codes<T> {
         {
             return code.clone();
         }
-        let all = shared.combined(Combination::Outputs);
-        let results = wanted.iter().map(|index| all.results[*index]).collect();
-        let list = List {
-            results,
-            ..all.clone()
-        };
-        let code = Arc::new(code(shared, &list));
+        let chosen = shared.list(Method::Outputs.into()).and_then(|all| {
+            let results = wanted.iter().map(|index| all.results[*index]).collect();
+            let list = List {
+                results,
+                ..all.clone()
+            };
+            code(shared, &list)
+        });
+        let code = Arc::new(chosen);
         *last = Some((wanted.into(), code.clone()));
         code
     }
@@ -111,7 +105,8 @@ impl<T: Real> Evaluator<T> {
 
     /// Length of the machine code of a method in bytes, with its constants; `None` where it is interpreted.
     pub fn bytes(&self, method: Method) -> Option<usize> {
-        self.codes.method(&self.shared, method).map(Code::bytes)
+        let code = self.codes.of(&self.shared, method.into());
+        code?.as_ref().map(Code::bytes)
     }
 
     fn run_code(&self, code: &Code<T>, given: Given<'_, T>, results: &mut [T]) {
@@ -143,24 +138,13 @@ impl<T: Real> Execute<T> for Evaluator<T> {
     }
 
     #[inline]
-    fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]) {
-        match self.codes.method(&self.shared, method) {
-            Some(code) => self.run_code(code, given, results),
-            None => self.interpreter().run(method, given, results),
+    fn run(&self, methods: Methods, given: Given<'_, T>, results: &mut [T]) -> bool {
+        match self.codes.of(&self.shared, methods) {
+            Some(Some(code)) => self.run_code(code, given, results),
+            Some(None) => return self.interpreter().run(methods, given, results),
+            None => return false,
         }
-    }
-
-    fn run_combined(
-        &self,
-        combination: Combination,
-        given: Given<'_, T>,
-        results: &mut [T],
-    ) -> bool {
-        let code = self.codes.combined(&self.shared, combination);
-        if let Some(code) = code {
-            self.run_code(code, given, results);
-        }
-        code.is_some()
+        true
     }
 
     fn run_outputs(&self, wanted: &[usize], given: Given<'_, T>, results: &mut [T]) -> bool {
@@ -198,7 +182,7 @@ mod tests {
     use crate::model::Evaluated;
     use crate::native::there;
     use bryant_generator::Config;
-    use bryant_generator::program::{Combination, Method};
+    use bryant_generator::program::Method;
     use bryant_runtime::{Adjustable, Real};
     use std::ptr::from_ref;
     use std::sync::Barrier;
@@ -229,8 +213,14 @@ run: { duration: 1 s, every: 10 ms }
         let (codes, shared): (&Codes<T>, _) = (&evaluator.codes, &evaluator.shared);
         let chosen = codes.outputs(shared, wanted);
         [
-            codes.method(shared, Method::Derivative),
-            codes.combined(shared, Combination::EventFunctions),
+            codes
+                .of(shared, Method::Derivative.into())
+                .unwrap()
+                .as_ref(),
+            codes
+                .of(shared, Method::EventFunctions.into())
+                .unwrap()
+                .as_ref(),
             (*chosen).as_ref(),
         ]
         .map(|code| code.map(|code| from_ref(code) as usize))

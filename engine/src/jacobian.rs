@@ -180,10 +180,9 @@ impl<T: Real, S: Holds<T>> Jacobian<T> for Differentiated<T, S> {
             let given = Given {
                 time,
                 state: &self.state,
-                before: &[],
             };
             self.evaluator
-                .run(Method::Derivative, given, &mut self.rate);
+                .run(Method::Derivative.into(), given, &mut self.rate);
             for entry in &mut self.state[first..end.min(varying)] {
                 entry.slope = S::from_f64(0.0);
             }

@@ -22,6 +22,7 @@
 //! | `front` | runs, rows and gradients of a model, compiled here for all scalars |
 //! | `execute` | [`Execute`], the interface of everything that evaluates lists |
 //! | `interpret` | the interpreter, for any scalar |
+//! | `sets` | code and lists of sets of methods, each made when it is first used |
 //! | `evaluate` | machine code where that is possible, the interpreter elsewhere |
 //! | `jacobian` | derivatives of the rates, several columns at once |
 //! | `native` | machine code for this processor, for scalars that are numbers side by side; `--cfg bryant_interpret` leaves it out |
@@ -50,6 +51,7 @@ mod model;
     path = "no_native.rs"
 )]
 mod native;
+mod sets;
 #[cfg(test)]
 mod tests;
 mod user;

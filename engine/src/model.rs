@@ -6,12 +6,13 @@ use crate::execute::{Execute, Given};
 use crate::info;
 use crate::interpret::{Interpreter, Programs};
 use crate::jacobian::{Jacobian, jacobian};
+use crate::sets::Sets;
 use crate::user::UserFunctions;
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Combination, List, Lists, Method, Operation, Start};
-use bryant_runtime::dynamics::{arrive, exchange};
+use bryant_generator::program::{List, Lists, Method, Methods, Operation, Start};
+use bryant_runtime::dynamics::one_by_one;
 use bryant_runtime::real::Base;
-use bryant_runtime::{Adjustable, Arrival, Dynamics, Family, Info, Real, Schedule, Task};
+use bryant_runtime::{Adjustable, Dynamics, Family, Info, Real, Schedule, Section, Task};
 use std::any::{Any, TypeId};
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -31,8 +32,8 @@ pub(crate) struct Shared {
     pub library: Arc<Library>,
     /// Made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
-    /// Combinations of methods, each as one list, made when the combination is used for the first time.
-    combined: [OnceLock<List>; Combination::ALL.len()],
+    /// The lists of sets of methods, and of methods that start from others.
+    combined: Sets<List>,
     /// The machine code over each scalar: [`Codes`].
     codes: Mutex<HashMap<TypeId, Arc<dyn Any + Send + Sync>>>,
 }
@@ -43,10 +44,19 @@ impl Shared {
         self.programs.get_or_init(|| Programs::new(&self.lists))
     }
 
-    /// A combination of methods as one list.
-    pub fn combined(&self, combination: Combination) -> &List {
-        let list = || self.lists.combined(combination);
-        self.combined[combination as usize].get_or_init(list)
+    /// Methods as one list that needs only time, state and parameters; `None` if there are too many sets of several.
+    #[inline]
+    pub fn list(&self, methods: Methods) -> Option<&List> {
+        let alone = methods.one().map(|method| self.lists.routine(method));
+        match alone {
+            Some(routine) if routine.start == Start::State => Some(&routine.list),
+            _ => self.combined.get(methods, || self.lists.combined(methods)),
+        }
+    }
+
+    /// The number of results of a method.
+    fn length(&self, method: Method) -> usize {
+        self.lists.list(method).results.len()
     }
 
     /// The machine code over a scalar, which all models over it share.
@@ -121,7 +131,7 @@ impl Engine {
                 info: info::info(&lists.facts),
                 library: Arc::new(Library::new(&lists.curves, users)),
                 programs: OnceLock::new(),
-                combined: [const { OnceLock::new() }; Combination::ALL.len()],
+                combined: Sets::default(),
                 codes: Mutex::default(),
                 lists,
             }),
@@ -209,14 +219,8 @@ pub struct Machine<T, E> {
     parameters: Vec<T>,
     /// The values that depend only on parameters.
     derived: Vec<T>,
-    /// Room for the rates; methods that need accelerations read them here.
-    rates: RefCell<Vec<T>>,
-    /// Room for the event functions, for methods that need them.
-    event_functions: RefCell<Vec<T>>,
-    /// Results that are processed before they are returned.
+    /// Room for results that are not returned as they are.
     results: RefCell<Vec<T>>,
-    /// Room for the results of a combination of methods.
-    combined: RefCell<Vec<T>>,
     /// The indices of the wanted outputs; `None` if all are wanted.
     wanted: Option<Box<[usize]>>,
     /// The Jacobian, made when it is used for the first time.
@@ -229,29 +233,12 @@ struct WithoutJacobian<M>(M);
 
 impl<T: Real, E: Execute<T>> Machine<T, E> {
     fn new(shared: Arc<Shared>, execute: E) -> Self {
-        let zeros = |methods: &[Method]| {
-            let lengths = methods.iter().map(|&m| shared.lists.list(m).results.len());
-            RefCell::new(vec![T::from_f64(0.0); lengths.max().unwrap_or(0)])
-        };
+        let longest: usize = Method::ALL.map(|method| shared.length(method)).iter().sum();
         let defaults = shared.info.parameters.iter();
         let mut machine = Machine {
             parameters: defaults.map(|p| T::from_f64(p.default)).collect(),
             derived: vec![T::from_f64(0.0); shared.lists.derived],
-            rates: zeros(&[Method::Derivative]),
-            event_functions: zeros(&[Method::EventFunctions]),
-            results: zeros(&[
-                Method::Renewed,
-                Method::Pivots,
-                Method::Conditions,
-                Method::KinkRates,
-            ]),
-            combined: {
-                let length = |method: &Method| shared.lists.list(*method).results.len();
-                let arrival = Combination::WatchedArrival.methods();
-                let arrival: usize = arrival.iter().map(length).sum();
-                let longest = arrival.max(length(&Method::Outputs));
-                RefCell::new(vec![T::from_f64(0.0); longest])
-            },
+            results: RefCell::new(vec![T::from_f64(0.0); longest]),
             wanted: None,
             jacobian: RefCell::new(None),
             shared,
@@ -269,126 +256,52 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Runs a method at a state. If it needs results of another method, that method runs first.
-    fn at(&self, method: Method, t: T, y: &[T], results: &mut [T]) {
-        let routine = self.shared.lists.routine(method);
-        if routine.list.results.is_empty() {
-            return;
-        }
-        let given = Given {
-            time: t,
-            state: y,
-            before: &[],
-        };
-        match routine.start {
-            Start::State => self.execute.run(method, given, results),
-            Start::Accelerations => {
-                let combination = match method {
-                    Method::EventFunctions => Some(Combination::EventFunctions),
-                    Method::Outputs => Some(Combination::Outputs),
-                    _ => None,
-                };
-                if combination.is_some_and(|all| self.execute.run_combined(all, given, results)) {
-                    return;
-                }
-                let mut rates = self.rates.borrow_mut();
-                self.execute.run(Method::Derivative, given, &mut rates);
-                let info = self.shared.info;
-                let (q, v) = (info.coordinates.len(), info.velocities.len());
-                let before = &rates[q..q + v];
-                self.execute.run(method, Given { before, ..given }, results);
-            }
-            Start::EventFunctions => {
-                let mut event_functions = self.event_functions.borrow_mut();
-                self.at(Method::EventFunctions, t, y, &mut event_functions);
-                let before = &event_functions;
-                self.execute.run(method, Given { before, ..given }, results);
-            }
+    /// Runs a method at a state.
+    fn at(&self, method: Method, time: T, state: &[T], results: &mut [T]) {
+        if self.shared.length(method) > 0 {
+            self.execute
+                .run(method.into(), Given { time, state }, results);
         }
     }
 
-    /// Runs a combination of methods and passes the results of each to `hand_on`; returns false if this is not
-    /// possible.
-    fn at_once(
-        &self,
-        combination: Combination,
-        (t, y): (T, &[T]),
-        mut hand_on: impl FnMut(Method, &[T]),
-    ) -> bool {
-        let mut results = self.combined.borrow_mut();
-        let given = Given {
-            time: t,
-            state: y,
-            before: &[],
-        };
-        let done = self.execute.run_combined(combination, given, &mut results);
+    /// Runs the methods of sections at once, and passes the results on. Returns false, and writes nothing, if the
+    /// sections are not in order or if there are too many sets of them.
+    fn at_once(&self, time: T, state: &[T], wanted: &mut [(Section, &mut [T])]) -> bool {
+        let mut methods = Methods::default();
+        for (section, _) in wanted.iter().filter(|(_, results)| !results.is_empty()) {
+            let next = method_of(*section);
+            if Methods::from(next) <= methods {
+                return false;
+            }
+            methods = methods.with(next);
+        }
+        if methods == Methods::default() {
+            return true;
+        }
+        let mut found = self.results.borrow_mut();
+        let done = self.execute.run(methods, Given { time, state }, &mut found);
         if done {
-            let mut rest = &results[..];
-            for &method in combination.methods() {
-                let (mine, behind) = rest.split_at(self.shared.lists.list(method).results.len());
-                hand_on(method, mine);
+            let mut rest = &found[..];
+            for (section, results) in wanted.iter_mut().filter(|(_, results)| !results.is_empty()) {
+                let (mine, behind) = rest.split_at(self.shared.length(method_of(*section)));
+                self.pass_on(*section, state, mine, results);
                 rest = behind;
             }
         }
         done
     }
 
-    /// Computes [`Dynamics::exchange`] by a combination of methods; returns false if this is not possible.
-    fn exchange_at_once(
-        &self,
-        at: (T, &[T]),
-        powers: &mut [T],
-        external_wrench: &mut [T; 6],
-    ) -> bool {
-        self.at_once(Combination::Exchange, at, |method, results| match method {
-            Method::Powers => powers.copy_from_slice(results),
-            _ => external_wrench[..results.len()].copy_from_slice(results),
-        })
-    }
-
-    /// Computes [`Dynamics::arrive`] by a combination of methods; returns false if this is not possible.
-    fn arrive_at_once(&self, at: (T, &[T]), arrival: &mut Arrival<'_, T>) -> bool {
-        let combination = match (&arrival.account, arrival.curves.is_empty()) {
-            (Some(_), _) => Combination::WatchedArrival,
-            (None, false) => Combination::ArrivalWithCurves,
-            (None, true) => Combination::Arrival,
-        };
-        let Arrival {
-            event_functions,
-            onsets,
-            renewed,
-            curves,
-            account,
-        } = arrival;
-        let memory = !self.shared.info.memory.is_empty();
-        let nothing =
-            event_functions.is_empty() && onsets.is_empty() && curves.is_empty() && !memory;
-        if nothing && account.is_none() {
-            return true;
-        }
-        self.at_once(combination, at, |method, results| {
-            match (method, &mut *account) {
-                (Method::EventFunctions, _) => event_functions.copy_from_slice(results),
-                (Method::Onsets, _) => onsets.copy_from_slice(results),
-                (Method::Renewed, _) if self.shared.info.memory.is_empty() => {}
-                (Method::Renewed, _) => {
-                    renewed.copy_from_slice(at.1);
-                    for (&place, &value) in self.shared.lists.renewed.iter().zip(results) {
-                        renewed[place as usize] = value;
-                    }
+    /// Writes the results of a section from those of its method.
+    fn pass_on(&self, section: Section, state: &[T], found: &[T], results: &mut [T]) {
+        match section {
+            Section::Renewed => {
+                results.copy_from_slice(state);
+                for (&place, &value) in self.shared.lists.renewed.iter().zip(found) {
+                    results[place as usize] = value;
                 }
-                (Method::Curves, _) => curves.copy_from_slice(results),
-                (Method::KineticEnergy, Some(account)) => *account.kinetic_energy = results[0],
-                (Method::Powers, Some(account)) => account.powers.copy_from_slice(results),
-                (Method::Momentum, Some(account)) => {
-                    account.momentum[..results.len()].copy_from_slice(results)
-                }
-                (_, Some(account)) => {
-                    account.external_wrench[..results.len()].copy_from_slice(results)
-                }
-                (_, None) => {}
             }
-        })
+            _ => results.copy_from_slice(found),
+        }
     }
 
     /// Writes only the wanted outputs, to their places, and returns true; returns false if all are wanted or there is
@@ -397,13 +310,9 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         let Some(wanted) = &self.wanted else {
             return false;
         };
-        let mut results = self.combined.borrow_mut();
+        let mut results = self.results.borrow_mut();
         let results = &mut results[..wanted.len()];
-        let given = Given {
-            time: t,
-            state: y,
-            before: &[],
-        };
+        let given = Given { time: t, state: y };
         let done = self.execute.run_outputs(wanted, given, results);
         if done {
             for (place, result) in wanted.iter().zip(results) {
@@ -415,23 +324,34 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
 
     /// Runs a method that needs only parameters.
     fn of_parameters(&self, method: Method, results: &mut [T]) {
-        if !self.shared.lists.list(method).results.is_empty() {
-            self.execute.run(method, Given::nothing(), results);
-        }
+        self.at(method, T::from_f64(0.0), &[], results);
     }
+}
 
-    /// The six results of a method; zeros if the method has none because no system is free.
-    fn six(&self, method: Method, t: T, y: &[T]) -> [T; 6] {
-        let mut results = [T::from_f64(0.0); 6];
-        self.at(method, t, y, &mut results);
-        results
-    }
+/// The method of a section: that of the same name. A section without a method, or one in another order than the methods,
+/// does not compile.
+const fn method_of(section: Section) -> Method {
+    const METHODS: [Method; Section::ALL.len()] = {
+        let mut methods = [Method::Derived; Section::ALL.len()];
+        let (mut at, mut before) = (0, Method::Derived);
+        while at < methods.len() {
+            let method = Method::named(Section::ALL[at].name()).expect("a method for each section");
+            assert!(
+                before as usize <= method as usize,
+                "sections in the order of methods"
+            );
+            (methods[at], before) = (method, method);
+            at += 1;
+        }
+        methods
+    };
+    METHODS[section as usize]
 }
 
 /// Computes the values that depend only on parameters, and sets both in `execute`.
 pub(crate) fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], derived: &mut [T]) {
     execute.set_constants(parameters, &[]);
-    execute.run(Method::Derived, Given::nothing(), derived);
+    execute.run(Method::Derived.into(), Given::nothing(), derived);
     execute.set_constants(parameters, derived);
 }
 
@@ -464,60 +384,10 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
 
     $jacobian
 
-    fn outputs(&self, t: T, y: &[T], outputs: &mut [T]) {
-        if !self.machine().wanted_outputs(t, y, outputs) {
-            self.machine().at(Method::Outputs, t, y, outputs);
-        }
-    }
-
     fn normalize(&self, y: &mut [T]) {
         for range in &self.machine().shared.lists.quaternions {
             T::dispatch(Normalize(&mut y[range.clone()]));
         }
-    }
-
-    fn renew(&self, t: T, y: &mut [T]) {
-        let mut results = self.machine().results.borrow_mut();
-        let places = &self.machine().shared.lists.renewed;
-        self.machine().at(Method::Renewed, t, y, &mut results[..places.len()]);
-        for (&place, &value) in places.iter().zip(results.iter()) {
-            y[place as usize] = value;
-        }
-    }
-
-    fn renew_by(&self, t: T, y: &mut [T], event_functions: &[T]) {
-        let machine = self.machine();
-        let routine = machine.shared.lists.routine(Method::Renewed);
-        if routine.start != Start::EventFunctions {
-            return self.renew(t, y);
-        }
-        let mut results = machine.results.borrow_mut();
-        let places = &machine.shared.lists.renewed;
-        let given = Given {
-            time: t,
-            state: y,
-            before: event_functions,
-        };
-        machine.execute.run(Method::Renewed, given, &mut results[..places.len()]);
-        for (&place, &value) in places.iter().zip(results.iter()) {
-            y[place as usize] = value;
-        }
-    }
-
-    fn event_functions(&self, t: T, y: &[T], event_functions: &mut [T]) {
-        self.machine().at(Method::EventFunctions, t, y, event_functions);
-    }
-
-    fn kinks(&self, t: T, y: &[T], kinks: &mut [T]) {
-        self.machine().at(Method::Kinks, t, y, kinks);
-    }
-
-    fn onsets(&self, t: T, y: &[T], onsets: &mut [T]) {
-        self.machine().at(Method::Onsets, t, y, onsets);
-    }
-
-    fn curves(&self, t: T, y: &[T], arguments: &mut [T]) {
-        self.machine().at(Method::Curves, t, y, arguments);
     }
 
     fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)> {
@@ -537,33 +407,23 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         conditions.position(|(value, rule)| !rule.keeps(value.to_f64()))
     }
 
-    fn kinetic_energy(&self, t: T, y: &[T]) -> T {
-        let mut energy = [T::from_f64(0.0)];
-        self.machine().at(Method::KineticEnergy, t, y, &mut energy);
-        energy[0]
-    }
-
-    fn powers(&self, t: T, y: &[T], powers: &mut [T]) {
-        self.machine().at(Method::Powers, t, y, powers);
-    }
-
-    fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
-        self.machine().six(Method::Momentum, t, y)
-    }
-
-    fn external_wrench(&self, t: T, y: &[T]) -> [T; 6] {
-        self.machine().six(Method::ExternalWrench, t, y)
-    }
-
-    fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
-        if !self.machine().exchange_at_once((t, y), powers, external_wrench) {
-            exchange(self, t, y, powers, external_wrench);
+    fn section(&self, section: Section, t: T, y: &[T], results: &mut [T]) {
+        let machine = self.machine();
+        match section {
+            Section::Outputs if machine.wanted_outputs(t, y, results) => {}
+            Section::Renewed => {
+                let mut found = machine.results.borrow_mut();
+                let found = &mut found[..machine.shared.lists.renewed.len()];
+                machine.at(Method::Renewed, t, y, found);
+                machine.pass_on(section, y, found, results);
+            }
+            _ => machine.at(method_of(section), t, y, results),
         }
     }
 
-    fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
-        if !self.machine().arrive_at_once((t, y), arrival) {
-            arrive(self, t, y, arrival);
+    fn sections(&self, t: T, y: &[T], wanted: &mut [(Section, &mut [T])]) {
+        if !self.machine().at_once(t, y, wanted) {
+            one_by_one(self, t, y, wanted);
         }
     }
 

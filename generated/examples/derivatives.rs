@@ -19,7 +19,8 @@
 //!
 //! A model with memory is refused: memory changes between steps, which this program does not know.
 
-use bryant_runtime::program::{Entry, Named, RunError};
+use bryant_runtime::Section;
+use bryant_runtime::program::Entry;
 use std::error::Error;
 use std::io::{BufRead, Write};
 
@@ -40,13 +41,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A function of the parameters, time and state of a model that fills a slice.
-type Evaluate = fn(&Entry, &[Named], f64, &[f64], &mut [f64]) -> Result<(), RunError>;
-
 fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
     let info = entry.info;
     let (request, rest) = line.split_once(' ').unwrap_or((line, ""));
-    let evaluated = |function: Evaluate, size: usize| -> Result<String, Box<dyn Error>> {
+    let evaluated = |section: Option<Section>| -> Result<String, Box<dyn Error>> {
         let given: Vec<f64> = rest
             .split_whitespace()
             .map(str::parse)
@@ -54,9 +52,15 @@ fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
         let (t, y) = given
             .split_first()
             .ok_or("a time and a state are missing")?;
-        let mut result = vec![f64::NAN; size];
-        function(entry, &[], *t, y, &mut result).map_err(|error| error.message)?;
-        Ok(numbers(&result))
+        let result = match section {
+            Some(section) => entry.section(section, &[], *t, y),
+            None => {
+                let mut rates = vec![f64::NAN; info.kinds.len()];
+                let done = entry.derivative(&[], *t, y, &mut rates);
+                done.map(|()| rates)
+            }
+        };
+        Ok(numbers(&result.map_err(|error| error.message)?))
     };
     let size = info.kinds.len();
     match request {
@@ -73,8 +77,8 @@ fn answer(entry: &Entry, line: &str) -> Result<String, Box<dyn Error>> {
             &entry.initial_state(&[]).map_err(|error| error.message)?,
         )),
         "breakpoints" => Ok(numbers(&breakpoints(entry)?)),
-        "rate" => evaluated(Entry::derivative, size),
-        "output" => evaluated(Entry::outputs, info.outputs.len()),
+        "rate" => evaluated(None),
+        "output" => evaluated(Some(Section::Outputs)),
         _ => Err(format!("no request {request:?}").into()),
     }
 }

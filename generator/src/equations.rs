@@ -4,6 +4,7 @@
 //! angles; in space with quaternions v holds ẋ and ω, and S v̇ = r_s + r_k.
 
 use crate::expression::{Graph, NodeId};
+use crate::method::{Method, Start};
 use crate::model::Rule;
 
 /// Equations of motion over one graph.
@@ -56,15 +57,8 @@ pub struct Equations {
     /// Pivots of the elimination that may vanish in some position, each divided by its diagonal entry of S; the pivots
     /// of an element follow one another.
     pub pivots: Vec<Named>,
-    /// T, the kinetic energy of all elements \[J\].
-    pub kinetic_energy: NodeId,
-    /// Power of each effect \[W\]; their sum is the rate of the kinetic energy.
-    pub powers: Vec<Named>,
-    /// Linear \[N s\] and angular momentum about the origin \[N m s\] of all systems whose reference joint is free, in
-    /// absolute axes; empty if there is no such system.
-    pub momentum: Vec<NodeId>,
-    /// The resultant force \[N\] and moment about the origin \[N m\] on these systems: the rate of the momentum.
-    pub external_wrench: Vec<NodeId>,
+    /// The sections that nothing else is made of.
+    pub sections: Vec<Section>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Curves of time: for each its index, and the factor of time in its abscissa.
@@ -111,7 +105,27 @@ pub struct LawState {
     pub next: NodeId,
 }
 
+/// A section: values at a time and a state, which a method of its own computes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Section {
+    /// Its method.
+    pub method: Method,
+    /// The values with their names; a single value has none.
+    pub values: Vec<Named>,
+    /// The values from which the method may start.
+    pub start: Start,
+}
+
 impl Equations {
+    /// The values of a section; none if the model does not have it.
+    pub fn section(&self, method: Method) -> &[Named] {
+        let found = self
+            .sections
+            .iter()
+            .find(|section| section.method == method);
+        found.map_or(&[], |section| &section.values)
+    }
+
     /// The curves of time whose rate depends on parameters, each with its rate.
     pub fn stretched_curves_of_time(&self) -> impl Iterator<Item = (usize, NodeId)> + '_ {
         let curves = self.curves_of_time.iter().copied();

@@ -61,7 +61,7 @@ use bryant_runtime::{
 
 bryant_runtime::use_nalgebra!(SMatrix, SVector);
 
-const _: () = bryant_runtime::check_generated_code_version(16);
+const _: () = bryant_runtime::check_generated_code_version(17);
 
 /// Length of q.
 pub const COORDINATES: usize = 2;
@@ -71,18 +71,6 @@ pub const VELOCITIES: usize = 2;
 
 /// Number of outputs.
 pub const OUTPUTS: usize = 3;
-
-/// Number of event functions.
-pub const EVENT_FUNCTIONS: usize = 0;
-
-/// Number of kinks.
-pub const KINKS: usize = 0;
-
-/// Number of powers.
-pub const POWERS: usize = 2;
-
-/// Number of curves of the state.
-pub const CURVES: usize = 0;
 
 /// What the model leaves adjustable, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -305,7 +293,7 @@ impl<T: Real> Mechanism<T> {
         );
     }
 
-    /// q̇(q, v).
+    /// The rate of q, from q and v alone.
     #[inline(always)]
     pub fn coordinate_rates_at(
         &self,
@@ -331,12 +319,12 @@ impl<T: Real> Mechanism<T> {
         writer.put(1, lower_omega);
     }
 
-    /// What parameters must keep, in the order of `INFO.conditions`.
+    /// What parameters must keep.
     pub fn conditions(&self) -> [T; 1] {
         [self.parameters.brake]
     }
 
-    /// T of all elements \[J\].
+    /// The kinetic energy T of all elements, in J.
     pub fn kinetic_energy_at(
         &self,
         _t: T,
@@ -368,13 +356,8 @@ impl<T: Real> Mechanism<T> {
         kinetic_energy
     }
 
-    /// Power of each effect \[W\], in the order of `INFO.powers`: together the rate of the kinetic energy.
-    pub fn powers_at(
-        &self,
-        _t: T,
-        q: &[T; COORDINATES],
-        v: &[T; VELOCITIES],
-    ) -> [T; POWERS] {
+    /// Power of each effect, in W: together the rate of the kinetic energy.
+    pub fn powers_at(&self, _t: T, q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; 2] {
         let num = T::from_f64;
         let &[upper_phi, lower_phi] = q;
         let &[upper_omega, lower_omega] = v;
@@ -400,7 +383,7 @@ impl<T: Real> Mechanism<T> {
         [power_field_gravity, power_joint_arm_lower_damping]
     }
 
-    /// What the scene asks to see, in the order and units of `INFO.outputs`.
+    /// What the scene asks to see.
     #[inline(always)]
     pub fn outputs_at(
         &self,
@@ -458,11 +441,6 @@ impl<T: Real> Model<T> for Mechanism<T> {
     type With<U: Real> = Mechanism<U>;
     type Parameters = Parameters<T>;
     type State = [T; STATE];
-    type Outputs = [T; OUTPUTS];
-    type EventFunctions = [T; EVENT_FUNCTIONS];
-    type Kinks = [T; KINKS];
-    type Powers = [T; POWERS];
-    type Curves = [T; CURVES];
     const INFO: &'static Info = &INFO;
     #[inline(always)]
     fn new(parameters: Parameters<T>) -> Self {
@@ -498,20 +476,20 @@ impl<T: Real> Model<T> for Mechanism<T> {
         self.each_coordinate_rate(q, v, rate);
     }
 
+    fn kinetic_energy(&self, t: T, y: &[T; STATE], results: &mut [T]) {
+        let (q, v) = parts(y);
+        results.copy_from_slice(&[self.kinetic_energy_at(t, q, v)]);
+    }
+
+    fn powers(&self, t: T, y: &[T; STATE], results: &mut [T]) {
+        let (q, v) = parts(y);
+        results.copy_from_slice(&self.powers_at(t, q, v));
+    }
+
     #[inline(always)]
-    fn outputs(&self, t: T, y: &[T; STATE]) -> [T; OUTPUTS] {
+    fn outputs(&self, t: T, y: &[T; STATE], results: &mut [T]) {
         let (q, v) = parts(y);
-        self.outputs_at(t, q, v)
-    }
-
-    fn kinetic_energy(&self, t: T, y: &[T; STATE]) -> T {
-        let (q, v) = parts(y);
-        self.kinetic_energy_at(t, q, v)
-    }
-
-    fn powers(&self, t: T, y: &[T; STATE]) -> [T; POWERS] {
-        let (q, v) = parts(y);
-        self.powers_at(t, q, v)
+        results.copy_from_slice(&self.outputs_at(t, q, v));
     }
 
     fn violated(&self) -> Option<usize> {

@@ -12,8 +12,51 @@
 
 use crate::model::over;
 use crate::real::Task;
-use crate::{Dual, Info, Model, ParameterSet, Real, StateKind, Vector};
+use crate::section::sections;
+use crate::{Dual, Info, Model, ParameterSet, Real, Section, StateKind, Vector};
 use core::marker::PhantomData;
+
+/// The methods of [`Dynamics`] for its sections, in the forms that the table gives.
+macro_rules! accessors {
+    ($($(#[$doc:meta])* $section:ident $name:ident $form:ident |$info:ident| $length:expr;)*) => {
+        $(accessor! { $(#[$doc])* $form $section $name })*
+    };
+}
+macro_rules! accessor {
+    ($(#[$doc:meta])* many $section:ident $name:ident) => {
+        $(#[$doc])*
+        fn $name(&self, t: T, y: &[T], results: &mut [T]) {
+            self.section(Section::$section, t, y, results);
+        }
+    };
+    ($(#[$doc:meta])* one $section:ident $name:ident) => {
+        $(#[$doc])*
+        fn $name(&self, t: T, y: &[T]) -> T {
+            let mut result = [T::from_f64(0.0)];
+            self.section(Section::$section, t, y, &mut result);
+            result[0]
+        }
+    };
+    ($(#[$doc:meta])* six $section:ident $name:ident) => {
+        $(#[$doc])*
+        fn $name(&self, t: T, y: &[T]) -> [T; 6] {
+            let mut results = [T::from_f64(0.0); 6];
+            let length = self.info().length(Section::$section);
+            self.section(Section::$section, t, y, &mut results[..length]);
+            results
+        }
+    };
+    ($(#[$doc:meta])* state $section:ident $name:ident) => {
+        $(#[$doc])*
+        /// Without memory it is the same state.
+        fn $name(&self, t: T, y: &[T], results: &mut [T]) {
+            match self.info().length(Section::$section) {
+                0 => results.copy_from_slice(y),
+                _ => self.section(Section::$section, t, y, results),
+            }
+        }
+    };
+}
 
 /// A model at one set of parameters, over one scalar.
 ///
@@ -34,127 +77,38 @@ pub trait Dynamics<T: Real> {
     /// ([`StateKind::Memory`]) are not written, because nothing integrates them. Returns false, and writes nothing,
     /// where the model has no Jacobian.
     fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool;
-    /// The outputs, in the order and units of [`Info::outputs`].
-    fn outputs(&self, t: T, y: &[T], outputs: &mut [T]);
     /// Puts the state back on its manifold (unit quaternions).
     fn normalize(&self, y: &mut [T]);
-    /// The discrete update of the state after a step: [`Model::renew`].
-    fn renew(&self, t: T, y: &mut [T]);
-    /// [`Dynamics::renew`], given event functions that are already known at this time and state. An implementation that
-    /// uses them returns the same bits.
-    fn renew_by(&self, t: T, y: &mut [T], event_functions: &[T]) {
-        let _ = event_functions;
-        self.renew(t, y);
-    }
-    /// The event functions, in the order of [`Info::event_functions`]: [`Model::event_functions`].
-    fn event_functions(&self, t: T, y: &[T], event_functions: &mut [T]);
-    /// The non-smooth switching functions (kinks), in the order of [`Info::kinks`]: [`Model::kinks`].
-    fn kinks(&self, t: T, y: &[T], kinks: &mut [T]);
-    /// The onsets: all gaps in the order of [`Info::onsets`], then all speeds: [`Model::onsets`].
-    fn onsets(&self, t: T, y: &[T], onsets: &mut [T]);
-    /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]: [`Model::curves`].
-    fn curves(&self, t: T, y: &[T], arguments: &mut [T]);
     /// The smallest pivot and the index of its element: [`Model::smallest_pivot`].
     fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)>;
     /// The first condition on parameters that does not hold: an index in [`Info::conditions`].
     fn violated(&self) -> Option<usize>;
-    /// Kinetic energy T \[J\].
-    fn kinetic_energy(&self, t: T, y: &[T]) -> T;
-    /// The power of each effect \[W\], in the order of [`Info::powers`].
-    fn powers(&self, t: T, y: &[T], powers: &mut [T]);
-    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\] of the free systems:
-    /// [`Model::momentum`].
-    fn momentum(&self, t: T, y: &[T]) -> [T; 6];
-    /// The net external wrench, the rate of the momentum: [`Model::external_wrench`].
-    fn external_wrench(&self, t: T, y: &[T]) -> [T; 6];
-    /// [`Dynamics::powers`], and [`Dynamics::external_wrench`] if a system is free; if none is free, `external_wrench`
-    /// is not written. Balances need both inside a step. An implementation that computes both at once returns the same
-    /// bits.
-    fn exchange(&self, t: T, y: &[T], powers: &mut [T], external_wrench: &mut [T; 6]) {
-        exchange(self, t, y, powers, external_wrench);
-    }
-    /// Everything that is needed at the end of a step. An implementation that computes it at once returns the same
-    /// bits.
-    fn arrive(&self, t: T, y: &[T], arrival: &mut Arrival<'_, T>) {
-        arrive(self, t, y, arrival);
-    }
     /// The first kink in time after `t` whose place depends on parameters: [`Model::kink_after`].
     fn kink_after(&self, t: f64) -> T;
+    /// Writes a section of the model. `results` has the length [`Info::length`].
+    fn section(&self, section: Section, t: T, y: &[T], results: &mut [T]);
+    /// Writes several sections at the same time and state, each to its slice; those with an empty slice are not wanted.
+    /// It is fastest if they are in the order of [`Section::ALL`], each once.
+    /// An implementation that computes them at once returns the same bits: most need the contacts, and can share the
+    /// searches between ellipsoids.
+    fn sections(&self, t: T, y: &[T], wanted: &mut [(Section, &mut [T])]) {
+        one_by_one(self, t, y, wanted);
+    }
+
+    sections!(accessors);
 }
 
-/// Where [`Dynamics::arrive`] writes what is needed at the end of a step. The slices have the lengths that [`Info`]
-/// gives. Most entries need the contacts. An implementation that computes all entries at once can share the searches
-/// between ellipsoids: one for a force, one for a distance.
-#[derive(Debug)]
-pub struct Arrival<'a, T> {
-    /// [`Dynamics::event_functions`]
-    pub event_functions: &'a mut [T],
-    /// [`Dynamics::onsets`]
-    pub onsets: &'a mut [T],
-    /// The state after [`Dynamics::renew_by`] with these event functions, if the model has memory; otherwise not
-    /// written.
-    pub renewed: &'a mut [T],
-    /// [`Dynamics::curves`]; empty if they are not needed.
-    pub curves: &'a mut [T],
-    /// Further values that a watch needs.
-    pub account: Option<AccountArrival<'a, T>>,
-}
-
-/// Values at the end of a step that the balances of energy and momentum need.
-#[derive(Debug)]
-pub struct AccountArrival<'a, T> {
-    /// [`Dynamics::kinetic_energy`] \[J\]
-    pub kinetic_energy: &'a mut T,
-    /// [`Dynamics::powers`] \[W\]
-    pub powers: &'a mut [T],
-    /// [`Dynamics::momentum`]; not written where no system is free.
-    pub momentum: &'a mut [T; 6],
-    /// [`Dynamics::external_wrench`]; not written where no system is free.
-    pub external_wrench: &'a mut [T; 6],
-}
-
-/// The default of [`Dynamics::exchange`]: calls one function after the other.
-pub fn exchange<T: Real, M: Dynamics<T> + ?Sized>(
+/// The default of [`Dynamics::sections`]: writes one section after the other.
+pub fn one_by_one<T: Real, M: Dynamics<T> + ?Sized>(
     model: &M,
     t: T,
     y: &[T],
-    powers: &mut [T],
-    external_wrench: &mut [T; 6],
+    wanted: &mut [(Section, &mut [T])],
 ) {
-    model.powers(t, y, powers);
-    if model.info().free {
-        *external_wrench = model.external_wrench(t, y);
-    }
-}
-
-/// The default of [`Dynamics::arrive`]: calls one function after the other.
-pub fn arrive<T: Real, M: Dynamics<T> + ?Sized>(
-    model: &M,
-    t: T,
-    y: &[T],
-    arrival: &mut Arrival<'_, T>,
-) {
-    let info = model.info();
-    if !info.event_functions.is_empty() {
-        model.event_functions(t, y, arrival.event_functions);
-    }
-    if !info.onsets.is_empty() {
-        model.onsets(t, y, arrival.onsets);
-    }
-    if !info.memory.is_empty() {
-        arrival.renewed.copy_from_slice(y);
-        model.renew_by(t, arrival.renewed, arrival.event_functions);
-    }
-    if !arrival.curves.is_empty() {
-        model.curves(t, y, arrival.curves);
-    }
-    let Some(account) = &mut arrival.account else {
-        return;
-    };
-    *account.kinetic_energy = model.kinetic_energy(t, y);
-    exchange(model, t, y, account.powers, account.external_wrench);
-    if info.free {
-        *account.momentum = model.momentum(t, y);
+    for (section, results) in wanted {
+        if !results.is_empty() {
+            model.section(*section, t, y, results);
+        }
     }
 }
 
@@ -273,34 +227,54 @@ enabled! {
     CoordinateRates { y: &'a [T], rate: &'a mut [T] } -> (), |model| {
         model.coordinate_rates(M::State::of(y), M::State::of_mut(rate));
     };
-    Outputs { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        *M::Outputs::of_mut(out) = model.outputs(*t, M::State::of(y));
-    };
     Normalize { y: &'a mut [T] } -> (), |model| model.normalize(M::State::of_mut(y));
-    Renew { t: &'a T, y: &'a mut [T] } -> (), |model| model.renew(*t, M::State::of_mut(y));
-    EventFunctions { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        *M::EventFunctions::of_mut(out) = model.event_functions(*t, M::State::of(y));
-    };
-    Kinks { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        *M::Kinks::of_mut(out) = model.kinks(*t, M::State::of(y));
-    };
-    Onsets { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        model.onsets(*t, M::State::of(y), out);
-    };
-    Curves { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        *M::Curves::of_mut(out) = model.curves(*t, M::State::of(y));
-    };
     SmallestPivot { t: &'a T, y: &'a [T] } -> Option<(usize, T)>, |model| {
         model.smallest_pivot(*t, M::State::of(y))
     };
-    KineticEnergy { t: &'a T, y: &'a [T] } -> T, |model| model.kinetic_energy(*t, M::State::of(y));
-    Powers { t: &'a T, y: &'a [T], out: &'a mut [T] } -> (), |model| {
-        *M::Powers::of_mut(out) = model.powers(*t, M::State::of(y));
-    };
-    Momentum { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.momentum(*t, M::State::of(y));
-    ExternalWrench { t: &'a T, y: &'a [T] } -> [T; 6], |model| model.external_wrench(*t, M::State::of(y));
     KinkAfter { t: f64 } -> T, |model| model.kink_after(t);
 }
+
+/// Writes a section of a generated model, compiled for the instructions that the scalar needs. No section that the model
+/// does not have is compiled, and each is a function of its own, so that none pays for the registers of another.
+macro_rules! dispatched {
+    ($($(#[$doc:meta])* $section:ident $name:ident $form:ident |$info:ident| $length:expr;)*) => {
+        fn write_section<T: Real, M: Model<T>>(
+            model: &M,
+            section: Section,
+            (t, y): (&T, &[T]),
+            results: &mut [T],
+        ) {
+            match section {
+                $(Section::$section => {
+                    struct At<'a, T, M>(&'a M, &'a T, &'a [T], &'a mut [T]);
+
+                    impl<T: Real, M: Model<T>> Task for At<'_, T, M> {
+                        type Output = ();
+                        #[inline(always)]
+                        fn run(self) {
+                            let At(model, t, y, results) = self;
+                            written!($form $name, model, *t, y, results);
+                        }
+                    }
+
+                    if const { M::INFO.length(Section::$section) > 0 } {
+                        T::dispatch_apart(At(model, t, y, results));
+                    }
+                })*
+            }
+        }
+    };
+}
+macro_rules! written {
+    (state $name:ident, $model:ident, $t:expr, $y:ident, $results:ident) => {
+        $results.copy_from_slice($y);
+        $model.renew($t, M::State::of_mut($results));
+    };
+    ($form:ident $name:ident, $model:ident, $t:expr, $y:ident, $results:ident) => {
+        $model.$name($t, M::State::of($y), $results)
+    };
+}
+sections!(dispatched);
 
 struct Made<T, M: Model<T>>
 where
@@ -359,179 +333,63 @@ impl<M> OwnedDifferentiable<M> {
     }
 }
 
-/// The methods of [`Dynamics`] that a run or a batch calls, for a type that holds a model.
-macro_rules! stepping {
-    () => {
-        fn info(&self) -> &'static Info {
-            M::INFO
-        }
-
-        fn parameter(&self, index: usize) -> Option<T> {
-            Model::parameters(self.model()).get(index)
-        }
-
-        fn initial_state(&self, y: &mut [T]) {
-            T::dispatch(InitialState {
-                model: self.model(),
-                of: PhantomData,
-                y,
-            });
-        }
-
-        fn derivative(&self, t: T, y: &[T], rate: &mut [T]) {
-            T::dispatch(Derivative {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                rate,
-            });
-        }
-
-        fn coordinate_rates(&self, y: &[T], rate: &mut [T]) {
-            T::dispatch(CoordinateRates {
-                model: self.model(),
-                of: PhantomData,
-                y,
-                rate,
-            });
-        }
-
-        fn outputs(&self, t: T, y: &[T], out: &mut [T]) {
-            T::dispatch(Outputs {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                out,
-            });
-        }
-
-        fn normalize(&self, y: &mut [T]) {
-            T::dispatch(Normalize {
-                model: self.model(),
-                of: PhantomData,
-                y,
-            });
-        }
-
-        fn renew(&self, t: T, y: &mut [T]) {
-            T::dispatch(Renew {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-            });
-        }
-
-        fn event_functions(&self, t: T, y: &[T], out: &mut [T]) {
-            T::dispatch(EventFunctions {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                out,
-            });
-        }
-
-        fn kinks(&self, t: T, y: &[T], out: &mut [T]) {
-            T::dispatch(Kinks {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                out,
-            });
-        }
-
-        fn onsets(&self, t: T, y: &[T], out: &mut [T]) {
-            T::dispatch(Onsets {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                out,
-            });
-        }
-
-        fn violated(&self) -> Option<usize> {
-            Model::violated(self.model())
-        }
-
-        fn kink_after(&self, t: f64) -> T {
-            T::dispatch(KinkAfter {
-                model: self.model(),
-                of: PhantomData,
-                t,
-            })
-        }
-    };
-}
-
-/// The methods of [`Dynamics`] that a watched run calls, for a type that holds a model: energies and momenta.
-macro_rules! accounts {
-    () => {
-        fn kinetic_energy(&self, t: T, y: &[T]) -> T {
-            T::dispatch(KineticEnergy {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-            })
-        }
-
-        fn powers(&self, t: T, y: &[T], out: &mut [T]) {
-            T::dispatch(Powers {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                out,
-            });
-        }
-
-        fn momentum(&self, t: T, y: &[T]) -> [T; 6] {
-            T::dispatch(Momentum {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-            })
-        }
-
-        fn external_wrench(&self, t: T, y: &[T]) -> [T; 6] {
-            T::dispatch(ExternalWrench {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-            })
-        }
-    };
-}
-
-/// [`Dynamics`] for a type that holds a model; `jacobian` says how it is differentiated.
+/// [`Dynamics`] for a type that holds a model. `jacobian` says how it is differentiated, `pivots` whether it has a
+/// smallest pivot.
 macro_rules! dynamics {
-    ($holder:ty, $jacobian:expr) => {
+    ($holder:ty, $jacobian:expr, $pivots:literal) => {
         impl<T: Real, M: Model<T>> Dynamics<T> for $holder {
-            stepping!();
+            fn info(&self) -> &'static Info {
+                M::INFO
+            }
+
+            fn parameter(&self, index: usize) -> Option<T> {
+                Model::parameters(self.model()).get(index)
+            }
+
+            fn initial_state(&self, y: &mut [T]) {
+                T::dispatch(InitialState {
+                    model: self.model(),
+                    of: PhantomData,
+                    y,
+                });
+            }
+
+            fn derivative(&self, t: T, y: &[T], rate: &mut [T]) {
+                T::dispatch(Derivative {
+                    model: self.model(),
+                    of: PhantomData,
+                    t: &t,
+                    y,
+                    rate,
+                });
+            }
+
+            fn coordinate_rates(&self, y: &[T], rate: &mut [T]) {
+                T::dispatch(CoordinateRates {
+                    model: self.model(),
+                    of: PhantomData,
+                    y,
+                    rate,
+                });
+            }
 
             fn jacobian(&self, t: T, y: &[T], by_state: &mut [T], by_time: &mut [T]) -> bool {
                 let jacobian: fn(&M, T, &[T], &mut [T], &mut [T]) -> bool = $jacobian;
                 jacobian(self.model(), t, y, by_state, by_time)
             }
 
-            fn curves(&self, t: T, y: &[T], out: &mut [T]) {
-                T::dispatch(Curves {
+            fn normalize(&self, y: &mut [T]) {
+                T::dispatch(Normalize {
                     model: self.model(),
                     of: PhantomData,
-                    t: &t,
                     y,
-                    out,
                 });
             }
 
             fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)> {
+                if const { !$pivots } {
+                    return None;
+                }
                 T::dispatch(SmallestPivot {
                     model: self.model(),
                     of: PhantomData,
@@ -540,15 +398,31 @@ macro_rules! dynamics {
                 })
             }
 
-            accounts!();
+            fn violated(&self) -> Option<usize> {
+                Model::violated(self.model())
+            }
+
+            fn kink_after(&self, t: f64) -> T {
+                T::dispatch(KinkAfter {
+                    model: self.model(),
+                    of: PhantomData,
+                    t,
+                })
+            }
+
+            fn section(&self, section: Section, t: T, y: &[T], results: &mut [T]) {
+                write_section(self.model(), section, (&t, y), results);
+            }
         }
     };
 }
 
-dynamics!(Direct<'_, M>, |_, _, _, _, _| false);
-dynamics!(Differentiable<'_, M>, jacobian_by_duals);
-dynamics!(Owned<M>, |_, _, _, _, _| false);
-dynamics!(OwnedDifferentiable<M>, jacobian_by_duals);
+dynamics!(Direct<'_, M>, |_, _, _, _, _| false, true);
+dynamics!(Differentiable<'_, M>, jacobian_by_duals, true);
+dynamics!(Owned<M>, |_, _, _, _, _| false, true);
+dynamics!(OwnedDifferentiable<M>, jacobian_by_duals, true);
+#[cfg(feature = "std")]
+dynamics!(Batched<M>, |_, _, _, _, _| false, false);
 
 /// [`Adjustable`] for a type that owns a model.
 macro_rules! adjustable {
@@ -563,6 +437,8 @@ macro_rules! adjustable {
 
 adjustable!(Owned);
 adjustable!(OwnedDifferentiable);
+#[cfg(feature = "std")]
+adjustable!(Batched);
 
 /// A generated model with the default values of all parameters, without a Jacobian.
 #[cfg(feature = "std")]
@@ -669,40 +545,6 @@ struct Batched<M>(M);
 impl<M> Batched<M> {
     fn model(&self) -> &M {
         &self.0
-    }
-}
-
-#[cfg(feature = "std")]
-impl<T: Real, M: Model<T>> Dynamics<T> for Batched<M> {
-    stepping!();
-
-    fn jacobian(&self, _: T, _: &[T], _: &mut [T], _: &mut [T]) -> bool {
-        false
-    }
-
-    fn curves(&self, t: T, y: &[T], out: &mut [T]) {
-        if const { !M::INFO.curves.is_empty() } {
-            T::dispatch(Curves {
-                model: self.model(),
-                of: PhantomData,
-                t: &t,
-                y,
-                out,
-            });
-        }
-    }
-
-    fn smallest_pivot(&self, _: T, _: &[T]) -> Option<(usize, T)> {
-        None
-    }
-
-    accounts!();
-}
-
-#[cfg(feature = "std")]
-impl<T: Real, M: Model<T>> Adjustable<T> for Batched<M> {
-    fn set_parameters(&mut self, values: &[T]) {
-        set_parameters(&mut self.0, values);
     }
 }
 

@@ -11,6 +11,7 @@ pub mod dynamics;
 pub mod force;
 pub mod model;
 pub mod real;
+pub mod section;
 mod version;
 
 pub use curve::{Curve, Extrapolate};
@@ -22,4 +23,5 @@ pub use model::{
     StateKind, Vector, part,
 };
 pub use real::{DoubleDouble, Dual, Fast, Mask, Real, Several, Task, Width};
+pub use section::Section;
 pub use version::{GENERATED_CODE_VERSION, check_generated_code_version};

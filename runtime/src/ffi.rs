@@ -17,7 +17,7 @@
 use crate::dynamics::{Adjustable, Differentiable, Dynamics, Owned};
 use crate::real::lanes::{Alone, Lanes};
 use crate::real::{Base, Form, Task};
-use crate::{DoubleDouble, Dual, Fast, Model, ParameterSet, Real, Width};
+use crate::{DoubleDouble, Dual, Fast, Model, ParameterSet, Real, Section, Width};
 use core::ffi::c_void;
 use core::marker::PhantomData;
 use std::cell::RefCell;
@@ -25,7 +25,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Version of the exported functions. It changes whenever a library that was built for an earlier version would not
 /// work.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// The value that a call returns on success.
 pub const DONE: i32 = 0;
@@ -126,75 +126,69 @@ unsafe extern "C" fn call<F: Adapter<A, R>, T: Real, const A: usize, const R: us
     })
 }
 
-/// The methods of a model, by number.
+/// The methods of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[repr(u32)]
 pub enum What {
     /// [`Adjustable::set_parameters`]: y has the values.
-    SetParameters = 0,
+    SetParameters,
     /// [`Dynamics::parameter`]: t is the index.
-    Parameter = 1,
+    Parameter,
     /// [`Dynamics::initial_state`].
-    InitialState = 2,
+    InitialState,
     /// [`Dynamics::derivative`].
-    Derivative = 3,
+    Derivative,
     /// [`Dynamics::coordinate_rates`].
-    CoordinateRates = 4,
+    CoordinateRates,
     /// [`Dynamics::jacobian`]: ∂ẏ/∂y by rows, then ∂ẏ/∂t.
-    Jacobian = 5,
-    /// [`Dynamics::outputs`].
-    Outputs = 6,
+    Jacobian,
     /// [`Dynamics::normalize`] of the state that stands in the results.
-    Normalize = 7,
-    /// [`Dynamics::renew`] of the state that stands in the results.
-    Renew = 8,
-    /// [`Dynamics::event_functions`]: the event functions.
-    EventFunctions = 9,
-    /// [`Dynamics::kinks`]: the non-smooth switching functions.
-    Kinks = 10,
-    /// [`Dynamics::curves`].
-    Curves = 11,
+    Normalize,
     /// [`Dynamics::smallest_pivot`]: first the index, then the pivot.
-    SmallestPivot = 12,
+    SmallestPivot,
     /// [`Dynamics::violated`]: the index.
-    Violated = 13,
-    /// [`Dynamics::kinetic_energy`].
-    KineticEnergy = 14,
-    /// [`Dynamics::powers`].
-    Powers = 15,
-    /// [`Dynamics::momentum`].
-    Momentum = 16,
-    /// [`Dynamics::external_wrench`].
-    ExternalWrench = 17,
+    Violated,
     /// [`Dynamics::kink_after`].
-    KinkAfter = 18,
-    /// [`Dynamics::onsets`].
-    Onsets = 19,
+    KinkAfter,
+    /// [`Dynamics::section`].
+    Section(Section),
 }
 
 impl What {
-    const ALL: [What; 20] = [
+    /// Those with a number of their own; the sections follow them.
+    const FIRST: [What; 10] = [
         What::SetParameters,
         What::Parameter,
         What::InitialState,
         What::Derivative,
         What::CoordinateRates,
         What::Jacobian,
-        What::Outputs,
         What::Normalize,
-        What::Renew,
-        What::EventFunctions,
-        What::Kinks,
-        What::Curves,
         What::SmallestPivot,
         What::Violated,
-        What::KineticEnergy,
-        What::Powers,
-        What::Momentum,
-        What::ExternalWrench,
         What::KinkAfter,
-        What::Onsets,
     ];
+
+    /// The number that it has across the boundary.
+    pub fn number(self) -> u32 {
+        let number = match self {
+            What::Section(section) => What::FIRST.len() + section as usize,
+            _ => What::FIRST
+                .iter()
+                .position(|what| *what == self)
+                .unwrap_or_else(|| unreachable!("all others are among the first")),
+        };
+        number as u32
+    }
+
+    /// What has this number.
+    fn numbered(number: u32) -> Option<Self> {
+        let number = number as usize;
+        let section = || Section::ALL.get(number - What::FIRST.len());
+        match What::FIRST.get(number) {
+            Some(what) => Some(*what),
+            None => section().copied().map(What::Section),
+        }
+    }
 }
 
 /// A way to get the Jacobian of a model. Dual numbers need a second compilation of the equations, which takes longer
@@ -287,7 +281,7 @@ pub unsafe fn evaluate<M: Model<f64>, J: Differentiate>(
             core::slice::from_raw_parts_mut(results, results_length),
         )
     };
-    let Some(&what) = What::ALL.get(what as usize) else {
+    let Some(what) = What::numbered(what) else {
         return NOTHING;
     };
     caught(|| {
@@ -324,12 +318,7 @@ fn of_model<M: Model<f64>, J: Differentiate>(
                 return NOTHING;
             }
         }
-        What::Outputs => model.outputs(t, y, results),
         What::Normalize => model.normalize(results),
-        What::Renew => model.renew(t, results),
-        What::EventFunctions => model.event_functions(t, y, results),
-        What::Kinks => model.kinks(t, y, results),
-        What::Curves => model.curves(t, y, results),
         What::SmallestPivot => match model.smallest_pivot(t, y) {
             Some((index, pivot)) => results.copy_from_slice(&[index as f64, pivot]),
             None => return NOTHING,
@@ -338,12 +327,8 @@ fn of_model<M: Model<f64>, J: Differentiate>(
             Some(index) => results[0] = index as f64,
             None => return NOTHING,
         },
-        What::KineticEnergy => results[0] = model.kinetic_energy(t, y),
-        What::Powers => model.powers(t, y, results),
-        What::Momentum => results.copy_from_slice(&model.momentum(t, y)),
-        What::ExternalWrench => results.copy_from_slice(&model.external_wrench(t, y)),
         What::KinkAfter => results[0] = model.kink_after(t),
-        What::Onsets => model.onsets(t, y, results),
+        What::Section(section) => model.section(section, t, y, results),
     }
     DONE
 }

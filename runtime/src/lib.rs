@@ -72,8 +72,9 @@
 //! let mut t = 0.0;
 //! for _ in 0..10 {
 //!     t = march(&model, t, 1e-3, 100, &mut y); // 100 steps of 1 ms, then look
-//!     let [tip, ..] = model.outputs(t, &y);
-//!     assert!(tip.abs() < 1.0);
+//!     let mut outputs = [0.0; arm::OUTPUTS];
+//!     model.outputs(t, &y, &mut outputs);
+//!     assert!(outputs[arm::outputs::TIP_X].abs() < 1.0);
 //! }
 //! assert!((t - 1.0).abs() < 1e-9);
 //! ```
@@ -177,6 +178,7 @@ pub mod model;
 mod patience;
 pub mod real;
 pub mod response;
+pub mod section;
 pub mod simulate;
 mod version;
 
@@ -191,9 +193,7 @@ mod test_models;
 mod test_scalars;
 
 pub use curve::{Curve, Extrapolate};
-pub use dynamics::{
-    AccountArrival, Adjustable, Arrival, Differentiable, Direct, Dynamics, Owned, Schedule,
-};
+pub use dynamics::{Adjustable, Differentiable, Direct, Dynamics, Owned, Schedule};
 #[cfg(feature = "std")]
 pub use dynamics::{Compiled, Family};
 pub use failure::{Failure, Reason, Refusal};
@@ -209,6 +209,7 @@ pub use real::{DoubleDouble, Dual, Mask, Real, Task};
 #[cfg(feature = "std")]
 pub use real::{Layout, Several, Width};
 pub use response::{Response, reduce};
+pub use section::Section;
 #[cfg(feature = "std")]
 pub use simulate::simulate;
 pub use simulate::{

@@ -1,5 +1,6 @@
 //! The trait that every generated module implements, and that integrators and runners take.
 
+use crate::section::sections;
 use crate::{Extrapolate, Real};
 use core::ops::{Index, IndexMut};
 
@@ -120,6 +121,23 @@ pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
     }
 }
 
+/// The methods of [`Model`] for its sections. A model that has no such results need not have the method.
+macro_rules! methods {
+    ($($(#[$doc:meta])* $section:ident $name:ident $form:ident |$info:ident| $length:expr;)*) => {
+        $(method! { $(#[$doc])* $form $name })*
+    };
+}
+macro_rules! method {
+    ($(#[$doc:meta])* state $name:ident) => {};
+    ($(#[$doc:meta])* $form:ident $name:ident) => {
+        $(#[$doc])*
+        #[inline(always)]
+        fn $name(&self, _t: T, _y: &Self::State, results: &mut [T]) {
+            results.fill(T::from_f64(0.0));
+        }
+    };
+}
+
 /// A generated model at one set of parameters.
 ///
 /// The state y is the coordinates q followed by the velocities v. In space with quaternions an element has four
@@ -130,6 +148,8 @@ pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
 ///
 /// With Bryant angles the first entries of m are the charts of the elements, which say what their angles mean. Two
 /// states with different charts must not be compared or mixed entry by entry.
+///
+/// The methods of [sections](crate::Section) write to a slice that has exactly the length [`Info::length`].
 pub trait Model<T: Real>: Sized {
     /// The same model over another scalar: [`over`] makes it with the same parameters.
     type With<U: Real>: Model<U>;
@@ -137,16 +157,6 @@ pub trait Model<T: Real>: Sized {
     type Parameters: ParameterSet<T>;
     /// y: `[T; STATE]`, with q, v, z and m together.
     type State: Vector<T>;
-    /// `[T; number of outputs]`.
-    type Outputs: Vector<T>;
-    /// `[T; number of event functions (event_functions)]`.
-    type EventFunctions: Vector<T>;
-    /// `[T; number of non-smooth switching functions (kinks)]`.
-    type Kinks: Vector<T>;
-    /// `[T; number of powers]`.
-    type Powers: Vector<T>;
-    /// `[T; number of curves that depend on the state]`.
-    type Curves: Vector<T>;
     /// Names, units, sizes.
     const INFO: &'static Info;
 
@@ -170,8 +180,6 @@ pub trait Model<T: Real>: Sized {
     /// q̇ at the coordinates and velocities of `y`, written into the coordinates of `rate`. The rest of `rate` is not
     /// changed. The semi-implicit Euler method needs it at old coordinates and new velocities.
     fn coordinate_rates(&self, y: &Self::State, rate: &mut Self::State);
-    /// The model's outputs, in the order and units of [`Info::outputs`].
-    fn outputs(&self, t: T, y: &Self::State) -> Self::Outputs;
     /// Puts the state back on its manifold (unit quaternions). It is called after every accepted step.
     fn normalize(&self, y: &mut Self::State);
     /// Changes every entry, then normalizes the state ([`Self::normalize`]). A model that does both at once for each
@@ -189,33 +197,6 @@ pub trait Model<T: Real>: Sized {
     /// state, z included, is not changed. If there is nothing to update, the whole state keeps its bits.
     #[inline(always)]
     fn renew(&self, _t: T, _y: &mut Self::State) {}
-    /// Event functions, in the order of [`Info::event_functions`]. Where one changes its sign, a force law changes its
-    /// branch. A step with error control ends there.
-    #[inline(always)]
-    fn event_functions(&self, _t: T, _y: &Self::State) -> Self::EventFunctions {
-        Self::EventFunctions::splat(T::from_f64(0.0))
-    }
-    /// Non-smooth switching functions (kinks), in the order of [`Info::kinks`]. Where one changes its sign, a force law
-    /// is not smooth, though no discrete state depends on it: a contact begins to touch, a point of a curve is passed.
-    /// A method keeps its order where its steps end there. A step that passes over it is still correct, but less
-    /// accurate.
-    #[inline(always)]
-    fn kinks(&self, _t: T, _y: &Self::State) -> Self::Kinks {
-        Self::Kinks::splat(T::from_f64(0.0))
-    }
-    /// Tells when laws that do not act may begin to act, in the order of [`Info::onsets`]. First come the gaps. The gap
-    /// of a law is positive while the law certainly does not act; the gap of a corner is the distance to the nearest
-    /// corner of a curve, with opposite signs on its two sides. Then come the speeds: bounds of the rate of each gap,
-    /// in its unit per second. From both follows whether a step can have missed a law that begins and ends to act
-    /// within it.
-    #[inline(always)]
-    fn onsets(&self, _t: T, _y: &Self::State, _onsets: &mut [T]) {}
-    /// The arguments of the curves that depend on the state, in the order of [`Info::curves`]. Only a watch needs them,
-    /// to see whether a curve was left. For a curve whose force is 0 it is its first abscissa.
-    #[inline(always)]
-    fn curves(&self, _t: T, _y: &Self::State) -> Self::Curves {
-        Self::Curves::splat(T::from_f64(0.0))
-    }
     /// The smallest pivot of the elimination, as a share of the diagonal entry that stood there before the elimination,
     /// and the index of its element in [`Info::pivots`]. At 0 the accelerations are not determined. `None` where no
     /// pivot can vanish.
@@ -228,28 +209,6 @@ pub trait Model<T: Real>: Sized {
     fn violated(&self) -> Option<usize> {
         None
     }
-    /// Kinetic energy T \[J\], in absolute axes; 0 for a model that does not compute it.
-    #[inline(always)]
-    fn kinetic_energy(&self, _t: T, _y: &Self::State) -> T {
-        T::from_f64(0.0)
-    }
-    /// The power of each effect \[W\], in the order of [`Info::powers`]. Their sum is the rate of the kinetic energy.
-    #[inline(always)]
-    fn powers(&self, _t: T, _y: &Self::State) -> Self::Powers {
-        Self::Powers::splat(T::from_f64(0.0))
-    }
-    /// Linear momentum \[N s\] and angular momentum about the origin \[N m s\], in absolute axes x, y, z: the sum over
-    /// all systems whose reference joint is free. 0 where there is none ([`Info::free`]).
-    #[inline(always)]
-    fn momentum(&self, _t: T, _y: &Self::State) -> [T; 6] {
-        [T::from_f64(0.0); 6]
-    }
-    /// The net external wrench on the systems of [`Model::momentum`], in absolute axes: the force \[N\] of force laws
-    /// and fields, and their moment about the origin \[N m\]. It is the rate of the momentum.
-    #[inline(always)]
-    fn external_wrench(&self, _t: T, _y: &Self::State) -> [T; 6] {
-        [T::from_f64(0.0); 6]
-    }
     /// The first time after `t` at which a curve of time has a kink whose time depends on parameters; +∞ if there is
     /// none. Kinks that are known beforehand are in [`Info::breakpoints`]. All lanes get the first time of any lane,
     /// each with its own derivatives.
@@ -257,6 +216,8 @@ pub trait Model<T: Real>: Sized {
         let _ = t;
         T::from_f64(f64::INFINITY)
     }
+
+    sections!(methods);
 }
 
 /// The same model over another scalar, with the same parameters; `convert` converts each. The states of both have the

@@ -129,6 +129,7 @@ files! {
     "response/olc.rs",
     "response/tests.rs",
     "response/value.rs",
+    "section.rs",
     "simulate/balance.rs",
     "simulate/diagnostic.rs",
     "simulate/event.rs",

@@ -62,16 +62,10 @@ pub const BARE: Info = Info {
 /// What models on unit structs have in common: how many numbers there are of each kind, and where a run starts. q̇ is that of time 0, which
 /// counts only where it depends on time.
 macro_rules! bare {
-    ($model:ident, state $state:expr, outputs $outputs:expr, event_functions $event_functions:expr, kinks $kinks:expr, powers $powers:expr,
-     curves $curves:expr, from $y0:expr) => {
+    ($model:ident, state $state:expr, from $y0:expr) => {
         type With<U: Real> = $model;
         type Parameters = None;
         type State = [T; $state];
-        type Outputs = [T; $outputs];
-        type EventFunctions = [T; $event_functions];
-        type Kinks = [T; $kinks];
-        type Powers = [T; $powers];
-        type Curves = [T; $curves];
         fn new(_: None) -> Self {
             $model
         }
@@ -107,8 +101,7 @@ macro_rules! model {
         pub struct $model;
 
         impl<T: Real> Model<T> for $model {
-            bare!($model, state [$($q,)* $($v,)*].len(), outputs 0, event_functions 0, kinks { let names: &[&str] = &[$($name),*]; names.len() },
-                powers 0, curves 0, from $y0);
+            bare!($model, state [$($q,)* $($v,)*].len(), from $y0);
             const INFO: &'static Info = &Info {
                 name: stringify!($model),
                 coordinates: &[$($q),*],
@@ -123,12 +116,9 @@ macro_rules! model {
             fn derivative(&self, $t: T, $y: &Self::State) -> Self::State {
                 $rate
             }
-            fn outputs(&self, _: T, _: &Self::State) -> [T; 0] {
-                []
-            }
             fn normalize(&self, _: &mut Self::State) {}
-            fn kinks(&self, _: T, $at: &Self::State) -> Self::Kinks {
-                $law_kinks
+            fn kinks(&self, _: T, $at: &Self::State, results: &mut [T]) {
+                results.copy_from_slice(&$law_kinks);
             }
         }
     };
@@ -184,11 +174,6 @@ impl<T: Real> Model<T> for Oscillator<T> {
     type With<U: Real> = Oscillator<U>;
     type Parameters = Oscillator<T>;
     type State = [T; 2];
-    type Outputs = [T; 1];
-    type EventFunctions = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
     const INFO: &'static Info = Oscillator::INFO;
     fn new(parameters: Self) -> Self {
         parameters
@@ -205,8 +190,8 @@ impl<T: Real> Model<T> for Oscillator<T> {
     fn coordinate_rates(&self, y: &[T; 2], rate: &mut [T; 2]) {
         rate[0] = y[1];
     }
-    fn outputs(&self, _: T, y: &[T; 2]) -> [T; 1] {
-        [T::from_f64(0.5) * (y[1] * y[1] + self.stiffness * y[0] * y[0])]
+    fn outputs(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results.copy_from_slice(&[T::from_f64(0.5) * (y[1] * y[1] + self.stiffness * y[0] * y[0])]);
     }
     fn normalize(&self, _: &mut [T; 2]) {}
 }
@@ -275,7 +260,7 @@ pub struct Runaway;
 pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate::Error);
 
 impl<T: Real> Model<T> for Runaway {
-    bare!(Runaway, state 2, outputs 2, event_functions 0, kinks 0, powers 0, curves 1, from [0.0, 1.0]);
+    bare!(Runaway, state 2, from [0.0, 1.0]);
     const INFO: &'static Info = &Info {
         name: "runaway",
         coordinates: &["mass.x"],
@@ -305,11 +290,11 @@ impl<T: Real> Model<T> for Runaway {
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -SPRING.value(y[0])]
     }
-    fn outputs(&self, _: T, y: &[T; 2]) -> [T; 2] {
-        [y[0], SPRING.value(y[0])]
+    fn outputs(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results.copy_from_slice(&[y[0], SPRING.value(y[0])]);
     }
-    fn curves(&self, _: T, y: &[T; 2]) -> [T; 1] {
-        [y[0]]
+    fn curves(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results.copy_from_slice(&[y[0]]);
     }
     fn normalize(&self, _: &mut [T; 2]) {}
 }
@@ -319,7 +304,7 @@ impl<T: Real> Model<T> for Runaway {
 pub struct Spin;
 
 impl<T: Real> Model<T> for Spin {
-    bare!(Spin, state 4, outputs 0, event_functions 0, kinks 0, powers 0, curves 0, from [1.0, 0.0, 0.0, 0.0]);
+    bare!(Spin, state 4, from [1.0, 0.0, 0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "spin",
         dimension: 3,
@@ -334,9 +319,6 @@ impl<T: Real> Model<T> for Spin {
     fn derivative(&self, _: T, q: &[T; 4]) -> [T; 4] {
         [-q[3], -q[2], q[1], q[0]]
     }
-    fn outputs(&self, _: T, _: &[T; 4]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, q: &mut [T; 4]) {
         let norm = (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]).sqrt();
         *q = q.map(|x| x / norm);
@@ -348,7 +330,7 @@ impl<T: Real> Model<T> for Spin {
 pub struct Ratchet;
 
 impl<T: Real> Model<T> for Ratchet {
-    bare!(Ratchet, state 3, outputs 0, event_functions 1, kinks 0, powers 0, curves 0, from [-1.0, 0.0, -2.0]);
+    bare!(Ratchet, state 3, from [-1.0, 0.0, -2.0]);
     const INFO: &'static Info = &Info {
         name: "ratchet",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
@@ -362,15 +344,12 @@ impl<T: Real> Model<T> for Ratchet {
     fn derivative(&self, _: T, &[x, v, _]: &[T; 3]) -> [T; 3] {
         [v, -x, T::from_f64(0.0)]
     }
-    fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, _: &mut [T; 3]) {}
     fn renew(&self, _: T, y: &mut [T; 3]) {
         y[2] = y[2].max(y[0]);
     }
-    fn event_functions(&self, _: T, y: &[T; 3]) -> [T; 1] {
-        [y[1]]
+    fn event_functions(&self, _: T, y: &[T; 3], results: &mut [T]) {
+        results.copy_from_slice(&[y[1]]);
     }
 }
 
@@ -380,7 +359,7 @@ impl<T: Real> Model<T> for Ratchet {
 pub struct Ledge;
 
 impl<T: Real> Model<T> for Ledge {
-    bare!(Ledge, state 3, outputs 0, event_functions 1, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
+    bare!(Ledge, state 3, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "ledge",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
@@ -394,17 +373,14 @@ impl<T: Real> Model<T> for Ledge {
     fn derivative(&self, _: T, &[_, v, _]: &[T; 3]) -> [T; 3] {
         [v, T::from_f64(0.0), T::from_f64(0.0)]
     }
-    fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, _: &mut [T; 3]) {}
     fn renew(&self, _: T, y: &mut [T; 3]) {
         y[2] = y[0];
     }
-    fn event_functions(&self, _: T, y: &[T; 3]) -> [T; 1] {
+    fn event_functions(&self, _: T, y: &[T; 3], results: &mut [T]) {
         let one = T::from_f64(1.0);
         let left = T::select(y[2].lt(y[0]), -one, one);
-        [T::select(y[0].lt(T::from_f64(0.5)), one, left)]
+        results.copy_from_slice(&[T::select(y[0].lt(T::from_f64(0.5)), one, left)]);
     }
 }
 
@@ -413,7 +389,7 @@ impl<T: Real> Model<T> for Ledge {
 pub struct Counter;
 
 impl<T: Real> Model<T> for Counter {
-    bare!(Counter, state 3, outputs 0, event_functions 0, kinks 0, powers 0, curves 0, from [0.0, 1.0, 0.0]);
+    bare!(Counter, state 3, from [0.0, 1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "counter",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
@@ -426,9 +402,6 @@ impl<T: Real> Model<T> for Counter {
         let (zero, push) = (T::from_f64(0.0), T::from_f64(1e4));
         [v, T::select(T::from_f64(1.234).lt(t), push, zero), zero]
     }
-    fn outputs(&self, _: T, _: &[T; 3]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, _: &mut [T; 3]) {}
     fn renew(&self, _: T, y: &mut [T; 3]) {
         y[2] += T::from_f64(1.0);
@@ -440,7 +413,7 @@ impl<T: Real> Model<T> for Counter {
 pub struct Chain;
 
 impl<T: Real> Model<T> for Chain {
-    bare!(Chain, state 5, outputs 0, event_functions 3, kinks 0, powers 0, curves 0, from [0.0, 0.0, 9.0, 9.0, 9.0]);
+    bare!(Chain, state 5, from [0.0, 0.0, 9.0, 9.0, 9.0]);
     const INFO: &'static Info = &Info {
         name: "chain",
         kinds: &[
@@ -461,25 +434,23 @@ impl<T: Real> Model<T> for Chain {
         let zero = T::from_f64(0.0);
         [v, zero, zero, zero, zero]
     }
-    fn outputs(&self, _: T, _: &[T; 5]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, _: &mut [T; 5]) {}
     fn renew(&self, t: T, y: &mut [T; 5]) {
-        let event_functions = self.event_functions(t, y);
+        let mut event_functions = [T::from_f64(0.0); 3];
+        self.event_functions(t, y, &mut event_functions);
         for (time, event_function) in y[2..].iter_mut().zip(event_functions) {
             *time = T::select(event_function.lt(T::from_f64(0.0)), t, *time);
         }
     }
-    fn event_functions(&self, t: T, &[_, _, first, second, third]: &[T; 5]) -> [T; 3] {
+    fn event_functions(&self, t: T, &[_, _, first, second, third]: &[T; 5], results: &mut [T]) {
         let (one, ever) = (T::from_f64(1.0), T::from_f64(8.0));
         // the event function of a switch that has fired stays at 1
         let waiting = |time: T, event_function: T| T::select(time.lt(ever), one, event_function);
-        [
+        results.copy_from_slice(&[
             waiting(first, one - t),
             waiting(second, first - ever),
             waiting(third, second - ever),
-        ]
+        ]);
     }
 }
 
@@ -516,7 +487,7 @@ model! {
 pub struct Leaky;
 
 impl<T: Real> Model<T> for Leaky {
-    bare!(Leaky, state 2, outputs 0, event_functions 0, kinks 0, powers 1, curves 0, from [0.0, 0.0]);
+    bare!(Leaky, state 2, from [0.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Leaky",
         powers: &["thrust"],
@@ -526,16 +497,13 @@ impl<T: Real> Model<T> for Leaky {
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], T::from_f64(1.0)]
     }
-    fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, _: &mut [T; 2]) {}
-    fn kinetic_energy(&self, _: T, y: &[T; 2]) -> T {
-        T::from_f64(0.5) * y[1] * y[1]
+    fn kinetic_energy(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results[0] = T::from_f64(0.5) * y[1] * y[1];
     }
-    fn powers(&self, t: T, y: &[T; 2]) -> [T; 1] {
+    fn powers(&self, t: T, y: &[T; 2], results: &mut [T]) {
         let share = T::select(t.lt(T::from_f64(0.5)), T::from_f64(1.0), T::from_f64(0.9));
-        [share * y[1]]
+        results.copy_from_slice(&[share * y[1]]);
     }
 }
 
@@ -544,7 +512,7 @@ impl<T: Real> Model<T> for Leaky {
 pub struct Stage;
 
 impl<T: Real> Model<T> for Stage {
-    bare!(Stage, state 2, outputs 0, event_functions 0, kinks 0, powers 1, curves 0, from [1.0, 0.0]);
+    bare!(Stage, state 2, from [1.0, 0.0]);
     const INFO: &'static Info = &Info {
         name: "Stage",
         powers: &["spring"],
@@ -553,14 +521,11 @@ impl<T: Real> Model<T> for Stage {
     fn derivative(&self, _: T, y: &[T; 2]) -> [T; 2] {
         [y[1], -y[0]]
     }
-    fn outputs(&self, _: T, _: &[T; 2]) -> [T; 0] {
-        []
-    }
     fn normalize(&self, _: &mut [T; 2]) {}
-    fn kinetic_energy(&self, _: T, y: &[T; 2]) -> T {
-        T::from_f64(0.5) * y[1] * y[1]
+    fn kinetic_energy(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results[0] = T::from_f64(0.5) * y[1] * y[1];
     }
-    fn powers(&self, _: T, y: &[T; 2]) -> [T; 1] {
-        [-(y[0] * y[1])]
+    fn powers(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results.copy_from_slice(&[-(y[0] * y[1])]);
     }
 }

@@ -98,6 +98,7 @@ fn belongs(path: &str) -> bool {
         "equations.rs",
         "model.rs",
         "real.rs",
+        "section.rs",
         "version.rs",
     ];
     let folders = ["curve/", "force/", "real/"];

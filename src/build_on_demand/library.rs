@@ -225,7 +225,7 @@ impl CompiledModel<'_> {
     }
 
     fn status(&self, what: What, t: f64, y: &[f64], results: &mut [f64]) -> Result<bool, Panic> {
-        let (evaluate, what) = (self.of.evaluate, what as u32);
+        let (evaluate, what) = (self.of.evaluate, what.number());
         // SAFETY: this library made the model; only `set_parameters` changes it, and nobody else uses it meanwhile. The
         // slices have the given lengths, and the generated functions check that these suffice.
         let status = unsafe {

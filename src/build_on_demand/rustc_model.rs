@@ -5,7 +5,7 @@ use super::guard::{self, Inside, What as Named};
 use super::library::{Compiled, CompiledModel, Panic};
 use super::{BuildError, Rustc, Stage, Unit};
 use bryant_runtime::ffi::What;
-use bryant_runtime::{Adjustable, Dynamics, Info};
+use bryant_runtime::{Adjustable, Dynamics, Info, Section};
 use std::sync::OnceLock;
 
 /// A model over `f64`, compiled by rustc and loaded.
@@ -103,10 +103,6 @@ impl At<'_> {
         let mut results = [f64::NAN; N];
         self.fill(what, t, y, &mut results).then_some(results)
     }
-
-    fn all<const N: usize>(&self, what: What, t: f64, y: &[f64]) -> [f64; N] {
-        self.some(what, t, y).unwrap_or([f64::NAN; N])
-    }
 }
 
 impl Dynamics<f64> for At<'_> {
@@ -141,32 +137,8 @@ impl Dynamics<f64> for At<'_> {
         told
     }
 
-    fn outputs(&self, t: f64, y: &[f64], outputs: &mut [f64]) {
-        self.fill(What::Outputs, t, y, outputs);
-    }
-
     fn normalize(&self, y: &mut [f64]) {
         self.fill(What::Normalize, 0.0, &[], y);
-    }
-
-    fn renew(&self, t: f64, y: &mut [f64]) {
-        self.fill(What::Renew, t, &[], y);
-    }
-
-    fn event_functions(&self, t: f64, y: &[f64], event_functions: &mut [f64]) {
-        self.fill(What::EventFunctions, t, y, event_functions);
-    }
-
-    fn kinks(&self, t: f64, y: &[f64], kinks: &mut [f64]) {
-        self.fill(What::Kinks, t, y, kinks);
-    }
-
-    fn onsets(&self, t: f64, y: &[f64], onsets: &mut [f64]) {
-        self.fill(What::Onsets, t, y, onsets);
-    }
-
-    fn curves(&self, t: f64, y: &[f64], arguments: &mut [f64]) {
-        self.fill(What::Curves, t, y, arguments);
     }
 
     fn smallest_pivot(&self, t: f64, y: &[f64]) -> Option<(usize, f64)> {
@@ -179,26 +151,13 @@ impl Dynamics<f64> for At<'_> {
         Some(index as usize)
     }
 
-    fn kinetic_energy(&self, t: f64, y: &[f64]) -> f64 {
-        let [energy] = self.all(What::KineticEnergy, t, y);
-        energy
-    }
-
-    fn powers(&self, t: f64, y: &[f64], powers: &mut [f64]) {
-        self.fill(What::Powers, t, y, powers);
-    }
-
-    fn momentum(&self, t: f64, y: &[f64]) -> [f64; 6] {
-        self.all(What::Momentum, t, y)
-    }
-
-    fn external_wrench(&self, t: f64, y: &[f64]) -> [f64; 6] {
-        self.all(What::ExternalWrench, t, y)
-    }
-
     fn kink_after(&self, t: f64) -> f64 {
-        let [time] = self.all(What::KinkAfter, t, &[]);
+        let [time] = self.some(What::KinkAfter, t, &[]).unwrap_or([f64::NAN]);
         time
+    }
+
+    fn section(&self, section: Section, t: f64, y: &[f64], results: &mut [f64]) {
+        self.fill(What::Section(section), t, y, results);
     }
 }
 

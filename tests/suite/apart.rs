@@ -357,8 +357,9 @@ fn alike(ours: &mut dyn Adjustable<f64>, theirs: &mut dyn Adjustable<f64>, withi
             near(&a, &b, what);
         }
         let mut other = y.clone();
-        ours.renew(t, &mut y);
-        theirs.renew(t, &mut other);
+        let before = y.clone();
+        ours.renewed(t, &before, &mut y);
+        theirs.renewed(t, &before, &mut other);
         ours.normalize(&mut y);
         theirs.normalize(&mut other);
         near(&y, &other, "state");

@@ -10,9 +10,10 @@ use crate::users::functions;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::evaluate::Inputs;
+use bryant_generator::method::Method;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Entry;
-use bryant_runtime::{Model as _, ParameterSet};
+use bryant_runtime::{Model as _, ParameterSet, Section};
 use bryant_tests::compiled::Compiled;
 use bryant_tests::models::MODELS;
 use bryant_tests::rounding::Rounded;
@@ -158,8 +159,13 @@ fn check(compiled: &Compiled) {
     roots.extend(equations.memory.iter().map(|_| zero));
     let full = roots.len();
     roots.extend(&equations.outputs);
-    roots.push(equations.kinetic_energy);
-    roots.extend(equations.powers.iter().map(|power| power.value));
+    roots.push(equations.section(Method::KineticEnergy)[0].value);
+    roots.extend(
+        equations
+            .section(Method::Powers)
+            .iter()
+            .map(|power| power.value),
+    );
     roots.extend(
         equations
             .event_functions
@@ -172,7 +178,9 @@ fn check(compiled: &Compiled) {
     }
     roots.extend(equations.memory.iter().map(|state| state.next));
     roots.extend(equations.kinks.iter().map(|kink| kink.value));
-    roots.extend(equations.momentum.iter().chain(&equations.external_wrench));
+    for method in [Method::Momentum, Method::ExternalWrench] {
+        roots.extend(equations.section(method).iter().map(|of| of.value));
+    }
     let mut motion = Rounded::new(&equations.graph, &roots);
     let matrices: Vec<_> = equations.mass_matrix.concat();
     let roots = [
@@ -204,30 +212,19 @@ fn check(compiled: &Compiled) {
         entry
             .derivative(&named, point.t, &state, &mut rates)
             .expect("a derivative");
-        let mut out = vec![f64::NAN; outputs.len()];
-        entry
-            .outputs(&named, point.t, &state, &mut out)
-            .expect("outputs");
-        let mut others = vec![f64::NAN; 1 + equations.powers.len()];
-        entry
-            .energy(&named, point.t, &state, &mut others)
-            .expect("powers");
-        let mut event_functions = vec![f64::NAN; equations.event_functions.len()];
-        entry
-            .event_functions(&named, point.t, &state, &mut event_functions)
-            .expect("event_functions");
-        let mut renewed = state.clone();
-        entry
-            .renewed(&named, point.t, &state, &mut renewed)
-            .expect("a state");
-        let mut kinks = vec![f64::NAN; equations.kinks.len()];
-        entry
-            .kinks(&named, point.t, &state, &mut kinks)
-            .expect("kinks");
-        let mut momentum = vec![f64::NAN; 12];
-        entry
-            .momentum(&named, point.t, &state, &mut momentum)
-            .expect("momentum");
+        let of = |section: Section| {
+            let results = entry.section(section, &named, point.t, &state);
+            results.expect("a state of the model")
+        };
+        let out = of(Section::Outputs);
+        let mut others = [of(Section::KineticEnergy), of(Section::Powers)].concat();
+        let event_functions = of(Section::EventFunctions);
+        let mut renewed = match equations.memory.is_empty() {
+            true => state.clone(),
+            false => of(Section::Renewed),
+        };
+        let kinks = of(Section::Kinks);
+        let momentum = [of(Section::Momentum), of(Section::ExternalWrench)].concat();
         let memory = renewed.split_off(state.len() - point.m.len());
         let (moving, laws) = renewed.split_at(coordinates + size);
         assert_eq!(laws, point.z, "{name}: what is integrated is not renewed");
@@ -243,11 +240,7 @@ fn check(compiled: &Compiled) {
         }
         others.extend(memory);
         others.extend(kinks);
-        if entry.info.free {
-            others.extend(momentum);
-        } else {
-            assert_eq!(momentum, [0.0; 12], "{name}: nothing is free");
-        }
+        others.extend(momentum);
 
         let ends = [0, coordinates, coordinates + size, full];
         let (q_dot, rest) = rates.split_at(coordinates);

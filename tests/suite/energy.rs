@@ -8,6 +8,7 @@
 
 use crate::identity::Balance;
 use bryant_generator::expression::sum;
+use bryant_generator::method::Method as Of;
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};
 use bryant_tests::models::MODELS;
@@ -23,9 +24,13 @@ fn the_powers_are_the_rate_of_the_kinetic_energy() {
         let model = compiled.model();
         let balance = Balance::of(&model);
         let graph = &balance.equations.graph;
-        let powers = balance.equations.powers.iter();
+        let powers = balance.equations.section(Of::Powers).iter();
         let powers = sum(graph, powers.map(|p| graph.expr(p.value))).id();
-        balance.holds(&["T"], &[balance.equations.kinetic_energy], &[powers]);
+        balance.holds(
+            &["T"],
+            &[balance.equations.section(Of::KineticEnergy)[0].value],
+            &[powers],
+        );
     }
 }
 

@@ -9,6 +9,7 @@ use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::law::types::{
     Against, Belt, Bushing, Contact, Field, Freedom, Joint, Load, Spring,
 };
+use bryant_generator::method::Method;
 use bryant_generator::model::{
     Attachment, Body, Dimension, FieldComponent, Model, Number, Reference, ScaledCurve,
 };
@@ -143,7 +144,7 @@ fn a_turned_and_moved_scene_has_equal_accelerations_and_powers() {
         };
         let [here, there] = [&model, &moved].map(|model| derive_with(model, options));
         let roots = |equations: &bryant_generator::equations::Equations| -> Vec<NodeId> {
-            let powers = equations.powers.iter().map(|p| p.value);
+            let powers = equations.section(Method::Powers).iter().map(|p| p.value);
             equations
                 .accelerations
                 .iter()

@@ -9,6 +9,7 @@ use crate::share::share;
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::Model;
 use bryant_generator::read;
+use bryant_runtime::Section;
 use bryant_runtime::program::{Entry, Job};
 use bryant_tests::models::MODELS;
 use bryant_tests::trees::Random;
@@ -119,13 +120,9 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
                 .enumerate()
                 .map(|(k, (y, rate))| if k < moving { y + s * rate } else { *y })
                 .collect();
-            let mut kinks = vec![0.0; info.kinks.len()];
-            let mut event_functions = vec![0.0; info.event_functions.len()];
-            entry.kinks(&[], t + s, &there, &mut kinks).expect("kinks");
-            entry
-                .event_functions(&[], t + s, &there, &mut event_functions)
-                .expect("event_functions");
-            kinks.extend(event_functions);
+            let of = |section| entry.section(section, &[], t + s, &there);
+            let mut kinks = of(Section::Kinks).expect("kinks");
+            kinks.extend(of(Section::EventFunctions).expect("event functions"));
             rates.push(derivative(t + s, &there));
             functions.push(kinks);
             times.push(t + s);

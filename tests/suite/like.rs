@@ -1,7 +1,7 @@
 //! Functions that similar elements share: the same operations in the same order as in one long function, so the same bits.
 
 use bryant_runtime::real::lanes::{OfAnyWidth, with_one_lane};
-use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Width};
+use bryant_runtime::{Model, ParameterSet, Real, Section, Several, Task, Width};
 use bryant_tests::trees::Random;
 use std::marker::PhantomData;
 
@@ -36,11 +36,16 @@ impl<T: Real, M: Model<T>> Task for Everything<'_, (M, PhantomData<T>), M::State
         let (model, y) = (&self.model.0, self.y);
         let t = T::from_f64(0.13);
         let mut all = model.derivative(t, y).as_ref().to_vec();
-        all.extend_from_slice(model.outputs(t, y).as_ref());
-        all.extend_from_slice(model.kinks(t, y).as_ref());
-        all.extend_from_slice(model.powers(t, y).as_ref());
-        all.extend(model.momentum(t, y));
-        all.push(model.kinetic_energy(t, y));
+        let mut add = |section, write: fn(&M, T, &M::State, &mut [T])| {
+            let mut results = vec![T::from_f64(0.0); M::INFO.length(section)];
+            write(model, t, y, &mut results);
+            all.extend(results);
+        };
+        add(Section::Outputs, M::outputs);
+        add(Section::Kinks, M::kinks);
+        add(Section::Powers, M::powers);
+        add(Section::Momentum, M::momentum);
+        add(Section::KineticEnergy, M::kinetic_energy);
         let mut renewed = *y;
         model.renew(t, &mut renewed);
         all.extend_from_slice(renewed.as_ref());

@@ -5,7 +5,7 @@ use bryant_generated as bundled;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_runtime::program::Entry;
-use bryant_runtime::{Model as _, ParameterSet};
+use bryant_runtime::{Model as _, ParameterSet, Section};
 use bryant_tests::compiled::Compiled;
 use bryant_tests::models::{self, MODELS};
 use bryant_tests::rounding::Rounded;
@@ -47,11 +47,8 @@ fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
         .entry
         .derivative(&[], t, state, &mut rates)
         .expect("rates");
-    let mut outputs = vec![f64::NAN; equations.outputs.len()];
-    compiled
-        .entry
-        .outputs(&[], t, state, &mut outputs)
-        .expect("outputs");
+    let outputs = compiled.entry.section(Section::Outputs, &[], t, state);
+    let outputs = outputs.expect("outputs");
     let values = rates[q.len()..].iter().chain(&outputs).copied();
     values.zip(scatter).collect()
 }
@@ -112,10 +109,8 @@ fn functions_of_the_user_do_what_built_in_forces_do() {
 /// Whether the first output has a force at the start: the belt must be taut there, or its law would not be compared.
 fn ours_taut(entry: &Entry) -> bool {
     let state = entry.initial_state(&[]).expect("a start");
-    let mut outputs = vec![f64::NAN; entry.info.outputs.len()];
-    entry
-        .outputs(&[], 0.0, &state, &mut outputs)
-        .expect("outputs");
+    let outputs = entry.section(Section::Outputs, &[], 0.0, &state);
+    let outputs = outputs.expect("outputs");
     assert!(outputs[0] > 1.0, "{}: {outputs:?}", entry.info.name);
     true
 }
@@ -270,12 +265,10 @@ fn the_work_of_the_muscle_is_counted() {
     let columns = ["force", "shortening"].map(|name| run.column(name));
     let mut most = 0.0f64;
     for (i, (&t, state)) in run.times.iter().zip(&run.states).enumerate() {
-        let mut powers = vec![f64::NAN; 1 + entry.info.powers.len()];
-        entry
-            .energy(&[("excitation".into(), 0.3)], t, state, &mut powers)
-            .expect("powers");
+        let powers = entry.section(Section::Powers, &[("excitation".into(), 0.3)], t, state);
+        let powers = powers.expect("powers");
         let expected = -columns[0][i] * columns[1][i];
-        let error = (powers[1 + at] - expected).abs();
+        let error = (powers[at] - expected).abs();
         assert!(
             error <= 8.0 * f64::EPSILON * expected.abs(),
             "{t}: {error:e}"

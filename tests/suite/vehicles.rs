@@ -99,12 +99,18 @@ fn turning_and_moving_everything_leaves_the_motion() {
     assert!(way(2) > 0.05 && way(6) > 0.02, "nothing moved");
 }
 
+fn outputs_at<M: bryant_runtime::Model<f64>>(model: &M, t: f64, state: &M::State) -> Vec<f64> {
+    let mut outputs = vec![0.0; M::INFO.outputs.len()];
+    model.outputs(t, state, &mut outputs);
+    outputs
+}
+
 #[test]
 fn the_motion_of_a_vehicle_is_the_rate_of_its_positions() {
     const H: f64 = 1e-4;
     let model = vehicle_turned::Mechanism::<f64>::new(Default::default());
     let state = model.initial_state();
-    let at = |t: f64| bryant_runtime::Model::outputs(&model, t, &state);
+    let at = |t: f64| outputs_at(&model, t, &state);
     // away from the points, where accelerations jump
     for t in [0.05, 0.15, 0.25, 0.35, 0.45, 0.55, 0.7] {
         let [before, now, after] = [at(t - H), at(t), at(t + H)];
@@ -320,7 +326,7 @@ fn what_stops_stays_where_it_is() {
     ];
     for i in 1..=100 {
         let t = 0.02 * f64::from(i);
-        let outputs = bryant_runtime::Model::outputs(&model, t, &state);
+        let outputs = outputs_at(&model, t, &state);
         assert!(outputs.iter().all(|output| output.is_finite()), "at {t} s");
         for (end, place, speed, expected) in ends {
             let moves = outputs[speed] != 0.0;
@@ -359,7 +365,7 @@ fn pictures_show_where_vehicles_stopped() {
         parameters: &parameters,
     };
     for t in [0.0, 0.1, 0.15, 0.2, 0.3, 0.4, 0.9] {
-        let outputs = bryant_runtime::Model::outputs(&compiled, t, &state);
+        let outputs = outputs_at(&compiled, t, &state);
         let pose = Pose::new(&model, &layout, &parameters, t, &state).expect("all coordinates");
         for (vehicle, axis, output) in [(0, 0, 0), (0, 2, 1), (1, 0, 5)] {
             let origin = Attachment {
@@ -389,7 +395,7 @@ fn pictures_show_vehicles_where_outputs_say() {
         parameters: &[],
     };
     for t in [0.0, 0.13, 0.37, 0.52, 0.79] {
-        let outputs = bryant_runtime::Model::outputs(&compiled, t, &state);
+        let outputs = outputs_at(&compiled, t, &state);
         let pose = Pose::new(&model, &layout, &[], t, &state).expect("all coordinates");
         let on_vehicle = Attachment {
             on: Body::Vehicle(0),

@@ -9,8 +9,7 @@
 //! | values get places in a frame; a place is reused after the last use of its value | `encode` |
 //! | one loop executes each run | `run` |
 //!
-//! All methods share one frame of values: constants, parameters, values derived from them, time, state, the inputs from
-//! earlier methods, and room for the results of operations. The operations, their order and their rounding are those of
+//! All methods share one frame of values: constants, parameters, values derived from them, time, state, and room for the results of operations. The operations, their order and their rounding are those of
 //! the list.
 //!
 //! Places have sixteen bits, so that the code fits into the first-level cache of a processor. A plain loop over
@@ -26,7 +25,8 @@ mod run;
 
 use crate::execute::{Execute, Given};
 use crate::model::Shared;
-use bryant_generator::program::{Input, Lists, Method};
+use crate::sets::Sets;
+use bryant_generator::program::{Input, List, Lists, Methods};
 use bryant_runtime::Real;
 use bryant_runtime::real::Base;
 use encode::Code;
@@ -34,7 +34,7 @@ use frame::Frame;
 use run::Runs;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// The methods of a model in the form that the interpreter runs, the same for all scalars.
 #[derive(Debug)]
@@ -43,10 +43,10 @@ pub struct Programs {
     /// The place of each constant, by its bits.
     place_of: HashMap<u64, u32>,
     layout: Layout,
-    /// The runs of each method, made when the method is first used; `None` if it needs too many places.
-    runs: [OnceLock<Option<Code>>; Method::ALL.len()],
-    /// The plain code of each method, made when the method is first used.
-    plain: [OnceLock<plain::Code>; Method::ALL.len()],
+    /// The runs of each set of methods; `None` if it needs too many places.
+    runs: Sets<Option<Code>>,
+    /// The plain code of each set of methods.
+    plain: Sets<plain::Code>,
 }
 
 /// The first place of each part of the frame. The constants come first, then these parts in their order.
@@ -56,7 +56,6 @@ struct Layout {
     derived: u32,
     time: u32,
     state: u32,
-    before: u32,
     /// Results of operations.
     rest: u32,
 }
@@ -67,7 +66,9 @@ impl Layout {
         match input {
             Input::Time => self.time,
             Input::State(i) => self.state + i,
-            Input::Acceleration(i) | Input::EventFunction(i) => self.before + i,
+            Input::Acceleration(_) | Input::EventFunction(_) => {
+                unreachable!("a list of the engine computes them")
+            }
             Input::Parameter(i) => self.parameters + i,
             Input::Derived(i) => self.derived + i,
         }
@@ -90,8 +91,7 @@ impl Programs {
         let derived = parameters + facts.parameters.len() as u32;
         let time = derived + lists.derived as u32;
         let state = time + 1;
-        let before = state + facts.kinds.len() as u32;
-        let rest = before + facts.velocities.len().max(facts.event_functions.len()) as u32;
+        let rest = state + facts.kinds.len() as u32;
         Programs {
             constants,
             place_of,
@@ -100,7 +100,6 @@ impl Programs {
                 derived,
                 time,
                 state,
-                before,
                 rest,
             },
             runs: Default::default(),
@@ -108,15 +107,14 @@ impl Programs {
         }
     }
 
-    fn runs(&self, lists: &Lists, method: Method) -> Option<&Code> {
-        let runs = &self.runs[method as usize];
-        let encode = || encode::encode(lists.list(method), &self.layout, &self.place_of);
-        runs.get_or_init(encode).as_ref()
+    fn runs(&self, methods: Methods, list: &List) -> Option<&Code> {
+        let encode = || encode::encode(list, &self.layout, &self.place_of);
+        self.runs.get(methods, encode)?.as_ref()
     }
 
-    fn plain(&self, lists: &Lists, method: Method) -> &plain::Code {
-        let plain = &self.plain[method as usize];
-        plain.get_or_init(|| plain::encode(lists.list(method), &self.layout, &self.place_of))
+    fn plain(&self, methods: Methods, list: &List) -> Option<&plain::Code> {
+        let encode = || plain::encode(list, &self.layout, &self.place_of);
+        self.plain.get(methods, encode)
     }
 }
 
@@ -163,14 +161,17 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         frame[layout.derived as usize..][..derived.len()].copy_from_slice(derived);
     }
 
-    fn run(&self, method: Method, given: Given<'_, T>, results: &mut [T]) {
+    fn run(&self, methods: Methods, given: Given<'_, T>, results: &mut [T]) -> bool {
         let programs = self.shared.programs();
-        let Shared { lists, library, .. } = &*self.shared;
+        let Some(list) = self.shared.list(methods) else {
+            return false;
+        };
+        let library = &self.shared.library;
         let mut values = self.values.borrow_mut();
         values.give(&programs.layout, given);
         // a branch on a constant: without `RUNS`, no loop for runs is compiled
         if Self::RUNS
-            && let Some(code) = programs.runs(lists, method)
+            && let Some(code) = programs.runs(methods, list)
         {
             values.make_room(code.end(), code.most_arguments());
             let Values { frame, arguments } = &mut *values;
@@ -182,9 +183,11 @@ impl<T: Real> Execute<T> for Interpreter<T> {
             for (result, &place) in results.iter_mut().zip(&code.results) {
                 *result = frame[usize::from(place)];
             }
-            return;
+            return true;
         }
-        let code = programs.plain(lists, method);
+        let Some(code) = programs.plain(methods, list) else {
+            return false;
+        };
         values.make_room(code.end, code.most_arguments());
         let Values { frame, arguments } = &mut *values;
         T::dispatch(plain::Steps {
@@ -196,6 +199,7 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         for (result, &place) in results.iter_mut().zip(&code.results) {
             *result = frame[place as usize];
         }
+        true
     }
 }
 
@@ -205,7 +209,6 @@ impl<T: Real> Values<T> {
         let frame = &mut self.frame;
         frame[layout.time as usize] = given.time;
         frame[layout.state as usize..][..given.state.len()].copy_from_slice(given.state);
-        frame[layout.before as usize..][..given.before.len()].copy_from_slice(given.before);
     }
 
     /// Makes room for a method, so that nothing is allocated when the method runs again.

@@ -287,8 +287,7 @@ mod tests {
             append_call(&mut list, random);
             let places = (0..).zip(&list.constants);
             let constants: HashMap<u64, u32> = places.map(|(i, c)| (c.to_bits(), i)).collect();
-            let [state, accelerations, event_functions, parameters, derived] =
-                INPUTS.map(|n| n as u32);
+            let [state, parameters, derived] = INPUTS.map(|n| n as u32);
             let parameters_at = list.constants.len() as u32;
             let time = parameters_at + parameters + derived;
             let layout = Layout {
@@ -296,8 +295,7 @@ mod tests {
                 derived: parameters_at + parameters,
                 time,
                 state: time + 1,
-                before: time + 1 + state,
-                rest: time + 1 + state + accelerations.max(event_functions),
+                rest: time + 1 + state,
             };
             let code = encode(&list, &layout, &constants);
             let mut frame: Vec<f64> = (0..code.end).map(|_| random.ordinary()).collect();

@@ -43,8 +43,6 @@ pub trait Call<T> {
 struct Pointers<T> {
     time: *const T,
     state: *const T,
-    accelerations: *const T,
-    event_functions: *const T,
     parameters: *const T,
     derived: *const T,
     results: *mut T,
@@ -151,8 +149,6 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
     ) {
         let slots = |base: Base| self.slots[base as usize] as usize;
         let enough = given.state.len() >= slots(Base::State)
-            && given.before.len() >= slots(Base::Accelerations)
-            && given.before.len() >= slots(Base::EventFunctions)
             && parameters.len() >= slots(Base::Parameters)
             && derived.len() >= slots(Base::Derived)
             && results.len() >= slots(Base::Results);
@@ -165,8 +161,6 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
         let pointers = Pointers {
             time: &raw const given.time,
             state: given.state.as_ptr(),
-            accelerations: given.before.as_ptr(),
-            event_functions: given.before.as_ptr(),
             parameters: parameters.as_ptr(),
             derived: derived.as_ptr(),
             results: results.as_mut_ptr(),

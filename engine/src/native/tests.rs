@@ -65,21 +65,10 @@ impl<T: Real> Probe<T> {
             let numbers = (0..count).map(|_| self.random(random, special));
             numbers.collect::<Vec<T>>()
         };
-        let [
-            state,
-            accelerations,
-            mut event_functions,
-            parameters,
-            derived,
-        ] = INPUTS.map(&mut some);
-        // code gets either of them at the same place
-        let both = event_functions.len().min(accelerations.len());
-        event_functions[..both].copy_from_slice(&accelerations[..both]);
+        let [state, parameters, derived] = INPUTS.map(&mut some);
         Given {
             time: some(1)[0],
             state,
-            accelerations,
-            event_functions,
             parameters,
             derived,
         }
@@ -100,7 +89,6 @@ fn run<T: Real, C: Call<T>>(code: &Compiled<T, C>, given: &Given<T>, results: &m
     let point = Point {
         time: given.time,
         state: &given.state,
-        before: &given.accelerations,
     };
     let constants = (&given.parameters[..], &given.derived[..]);
     code.run(point, constants, &RefCell::default(), results);
@@ -255,8 +243,6 @@ fn check_long<T: Real>(probe: Probe<T>) {
     let mut given = Given {
         time: probe.random(random, false),
         state: (0..MANY).map(|_| probe.random(random, false)).collect(),
-        accelerations: Vec::new(),
-        event_functions: Vec::new(),
         parameters: Vec::new(),
         derived: Vec::new(),
     };

@@ -145,7 +145,7 @@ impl<'a> Emulated<'a> {
     }
 
     /// The results of the code, as slots.
-    fn run<T: Real>(&self, scalar: Scalar<T>, inputs: [&[Slot]; 6]) -> Vec<Slot> {
+    fn run<T: Real>(&self, scalar: Scalar<T>, inputs: [&[Slot]; 4]) -> Vec<Slot> {
         let mut regions = vec![Region {
             start: CODE,
             bytes: self.code.bytes.clone(),
@@ -231,15 +231,8 @@ impl<'a> Emulated<'a> {
         };
         let time = some(1);
         let given = INPUTS.map(&mut some);
-        let [state, accelerations, event_functions, parameters, derived] = &given;
-        let inputs = [
-            &time,
-            state,
-            accelerations,
-            event_functions,
-            parameters,
-            derived,
-        ];
+        let [state, parameters, derived] = &given;
+        let inputs = [&time, state, parameters, derived];
         let got = self.run(scalar, inputs.map(|slots| slots.as_slice()));
         for lane in 0..self.lanes {
             let at = |slot: &Slot| of_lane(scalar, slot, self.lanes, lane);
@@ -247,8 +240,6 @@ impl<'a> Emulated<'a> {
             let given = Given {
                 time: at(&time[0]),
                 state: of(state),
-                accelerations: of(accelerations),
-                event_functions: of(event_functions),
                 parameters: of(parameters),
                 derived: of(derived),
             };

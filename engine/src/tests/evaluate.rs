@@ -12,8 +12,6 @@ use bryant_runtime::force::{belt, contact, friction, power, switch};
 pub struct Given<T> {
     pub time: T,
     pub state: Vec<T>,
-    pub accelerations: Vec<T>,
-    pub event_functions: Vec<T>,
     pub parameters: Vec<T>,
     pub derived: Vec<T>,
 }
@@ -23,8 +21,7 @@ impl<T: Copy> Given<T> {
         match input {
             Input::Time => self.time,
             Input::State(i) => self.state[i as usize],
-            Input::Acceleration(i) => self.accelerations[i as usize],
-            Input::EventFunction(i) => self.event_functions[i as usize],
+            Input::Acceleration(_) | Input::EventFunction(_) => unreachable!("no list has them"),
             Input::Parameter(i) => self.parameters[i as usize],
             Input::Derived(i) => self.derived[i as usize],
         }

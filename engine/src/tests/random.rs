@@ -68,7 +68,7 @@ pub struct Mix {
 }
 
 /// The inputs of a list, in regions.
-pub const INPUTS: [usize; 5] = [9, 4, 3, 20, 15];
+pub const INPUTS: [usize; 3] = [9, 20, 15];
 
 /// A random list. Most of its values are of ordinary size at one point.
 pub fn list(random: &mut Random, mix: Mix) -> List {
@@ -78,12 +78,8 @@ pub fn list(random: &mut Random, mix: Mix) -> List {
     }
     list.constants.extend([1.0, -0.0, 0.5]);
     list.inputs.push(Input::Time);
-    let [state, accelerations, event_functions, parameters, derived] =
-        INPUTS.map(|count| 0..count as u32);
+    let [state, parameters, derived] = INPUTS.map(|count| 0..count as u32);
     list.inputs.extend(state.map(Input::State));
-    list.inputs.extend(accelerations.map(Input::Acceleration));
-    list.inputs
-        .extend(event_functions.map(Input::EventFunction));
     list.inputs.extend(parameters.map(Input::Parameter));
     list.inputs.extend(derived.map(Input::Derived));
     let inputs: Vec<f64> = list.inputs.iter().map(|_| random.ordinary()).collect();

@@ -8,7 +8,7 @@ use bryant_generator::Config;
 use bryant_generator::program::{Lists, Method};
 use bryant_generator::target::c::Source;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, Several, with_width};
-use bryant_runtime::{Dynamics, Real, Width};
+use bryant_runtime::{Dynamics, Real, Section, Width};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
@@ -189,18 +189,12 @@ impl ByEngine<'_> {
         let (t, y) = (T::from_f64(case.t), number(&case.state));
         let mut all = zeros(y.len());
         model.initial_state(&mut all);
+        let sections = Section::ALL.iter().copied();
         for (_, method, count) in printed(lists) {
             let mut results = zeros(count);
-            match method {
-                Method::Derivative => model.derivative(t, &y, &mut results),
-                Method::Outputs => model.outputs(t, &y, &mut results),
-                Method::EventFunctions => model.event_functions(t, &y, &mut results),
-                Method::Kinks => model.kinks(t, &y, &mut results),
-                Method::Onsets => model.onsets(t, &y, &mut results),
-                Method::Curves => model.curves(t, &y, &mut results),
-                Method::Powers => model.powers(t, &y, &mut results),
-                Method::Momentum => results = model.momentum(t, &y).to_vec(),
-                _ => results = model.external_wrench(t, &y).to_vec(),
+            match sections.clone().find(|of| of.name() == method.name()) {
+                Some(section) => model.section(section, t, &y, &mut results),
+                None => model.derivative(t, &y, &mut results),
             }
             all.extend(results);
         }
@@ -223,7 +217,7 @@ impl ByEngine<'_> {
         }
         if !lists.list(Method::Renewed).results.is_empty() {
             let mut state = y.clone();
-            model.renew(t, &mut state);
+            model.renewed(t, &y, &mut state);
             all.extend(state);
         }
         let mut state: Vec<T> = y.iter().map(|entry| T::from_f64(2.0) * *entry).collect();

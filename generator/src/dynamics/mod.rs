@@ -48,6 +48,7 @@ pub mod link;
 mod mass_matrix;
 mod momentum;
 mod outputs;
+mod sections;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod spatial;
@@ -58,6 +59,7 @@ use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph, NodeId};
 use crate::force::{self, AppliedForces};
 use crate::law;
+use crate::method::Method;
 use crate::model::{Model, System};
 use crate::motion::{Layout, Motion, State};
 use augmented::{AugmentedTree, Omitted};
@@ -208,10 +210,7 @@ fn in_graph(
         accelerations: &accelerations,
     };
     let outputs = outputs::outputs(&scene);
-    let kinetic_energy = energy::kinetic_energy(&scene);
-    let powers = energy::powers(&scene);
-    let momentum = momentum::momentum(&scene);
-    let external_wrench = momentum::external_wrench(&scene);
+    let sections = sections::of(&scene);
     let triggers = scene.triggers();
     force::switch::complete(graph, model, &mut applied, &triggers);
     let kinks = applied.kinks(graph);
@@ -224,8 +223,10 @@ fn in_graph(
     }
 
     let mut needed = [&accelerations[..], &outputs, &matrices.applied_forces].concat();
-    needed.extend(powers.iter().map(|(_, power)| *power));
     needed.extend(applied.states.auxiliaries.iter().map(|state| state.next));
+    let mut needed = ids(&needed);
+    let powers = sections.iter().filter(|of| of.method == Method::Powers);
+    needed.extend(powers.flat_map(|of| &of.values).map(|of| of.value));
     Equations {
         initial_coordinates: ids(&started.q),
         initial_velocities: ids(&started.v),
@@ -255,12 +256,9 @@ fn in_graph(
         curves,
         conditions,
         pivots: named(&pivots),
-        kinetic_energy: kinetic_energy.id(),
-        powers: named(&powers),
-        momentum: ids(&momentum),
-        external_wrench: ids(&external_wrench),
+        sections,
         outputs: ids(&outputs),
-        curves_of_time: curves_of_time::of(graph, &ids(&needed)),
+        curves_of_time: curves_of_time::of(graph, &needed),
         quaternions: layout.quaternions(),
         coordinates: layout.coordinates.clone(),
         velocities: layout.velocities.clone(),

@@ -38,10 +38,6 @@ pub enum Length {
     Memory,
     Outputs,
     EventFunctions,
-    Kinks,
-    Powers,
-    /// The number of curves of the state.
-    Curves,
     Number(usize),
 }
 

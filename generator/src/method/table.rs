@@ -1,12 +1,12 @@
 //! A specification for each emitted method, in the order of the emitted text.
 //!
-//! A new method needs a function here and its line in `TABLE`; a variant of [`Method`], unless it is a part of another
-//! method; and a function in the runtime's table.
+//! A new method needs a function here and its line in `TABLE`, and a row in the table of [`Method`], unless it is a part of
+//! another method. A new section needs neither of the two here: `dynamics/sections.rs` says what it computes.
 
 use super::inputs::{Argument, Inputs};
 use super::results::{Length, Results};
 use super::{Method, Start};
-use crate::equations::{Equations, LawState, Named, Route};
+use crate::equations::{Equations, LawState, Named, Route, Section};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::{Node, NodeId};
 use crate::model::Model;
@@ -50,8 +50,8 @@ pub struct Source<'a> {
     pub matrices: bool,
 }
 
-/// All methods but [`new`] and [`motion`]. An entry is `None` for a model that has no such method.
-const TABLE: [fn(&Source<'_>) -> Option<Specification>; 22] = [
+/// All methods but [`new`], [`motion`], the sections and the outputs, which follow. An entry is `None` for a model that has no such method.
+const TABLE: [fn(&Source<'_>) -> Option<Specification>; 17] = [
     initial_conditions,
     initial_auxiliaries,
     initial_memory,
@@ -69,17 +69,15 @@ const TABLE: [fn(&Source<'_>) -> Option<Specification>; 22] = [
     curves,
     pivots,
     conditions,
-    kinetic_energy,
-    powers,
-    momentum,
-    external_wrench,
-    outputs,
 ];
 
 /// The methods that a model has. `only` are the names of the wanted methods; `None` means all.
 pub fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification> {
+    let sections = source.equations.sections.iter();
     let found = TABLE.iter().filter_map(|entry| entry(source));
     found
+        .chain(sections.map(|section| source.section(section)))
+        .chain(outputs(source))
         .filter(|method| only.is_none_or(|only| only.contains(&method.name)))
         .collect()
 }
@@ -254,7 +252,6 @@ fn coordinate_rates(from: &Source<'_>) -> Option<Specification> {
         length: Some(Length::Coordinates),
     };
     Some(Specification {
-        documentation: "q̇(q, v).",
         arguments: vec![Argument::Coordinates, Argument::Velocities],
         roots: from.equations.coordinate_rates.clone(),
         labels: labels("", &from.inputs.coordinates, "_dot"),
@@ -268,7 +265,6 @@ fn kink_rates(from: &Source<'_>) -> Option<Specification> {
     let rates: Vec<NodeId> = stretched.map(|(_, rate)| rate).collect();
     let results = Results::Array(Length::Number(rates.len()));
     (!rates.is_empty()).then(|| Specification {
-        documentation: "By what time is multiplied in the curves of time that parameters stretch.",
         labels: (0..rates.len()).map(|i| format!("rate_{i}")).collect(),
         roots: rates,
         ..of_parameters("kink_rates", Method::KinkRates, results)
@@ -330,7 +326,6 @@ fn event_functions(from: &Source<'_>) -> Option<Specification> {
     let event_functions = some(&from.equations.event_functions)?;
     let results = Results::Array(Length::EventFunctions);
     Some(Specification {
-        documentation: "Functions whose change of sign ends a step, in the order of `INFO.event_functions`.",
         roots: values(event_functions),
         labels: named("event_function_", event_functions),
         start: Start::Accelerations,
@@ -342,9 +337,8 @@ fn event_functions(from: &Source<'_>) -> Option<Specification> {
 
 fn kinks(from: &Source<'_>) -> Option<Specification> {
     let kinks = some(&from.equations.kinks)?;
-    let results = Results::Array(Length::Kinks);
+    let results = Results::Array(Length::Number(kinks.len()));
     Some(Specification {
-        documentation: "Functions whose change of sign is where a force law is not smooth, in the order of `INFO.kinks`.",
         roots: values(kinks),
         labels: named("kink_", kinks),
         in_lanes: true,
@@ -360,7 +354,6 @@ fn onsets(from: &Source<'_>) -> Option<Specification> {
     let speeds = onsets.iter().map(|onset| onset.speed);
     let names: Vec<String> = onsets.iter().map(|onset| snake(&onset.name)).collect();
     Some(Specification {
-        documentation: "When laws that do not act begin to, and how far the corners of curves are: the gap of each, then the speed of each, in the order of `INFO.onsets`.",
         roots: gaps.chain(speeds).collect(),
         labels: [labels("gap_", &names, ""), labels("speed_", &names, "")].concat(),
         in_lanes: true,
@@ -372,9 +365,8 @@ fn onsets(from: &Source<'_>) -> Option<Specification> {
 fn curves(from: &Source<'_>) -> Option<Specification> {
     let curves = some(&from.equations.curves)?;
     let names = curves.iter().map(|curve| snake(&curve.name));
-    let results = Results::Array(Length::Curves);
+    let results = Results::Array(Length::Number(curves.len()));
     Some(Specification {
-        documentation: "What the curves of the state are evaluated at, the bearings of bent joints and the directions of contacts, in the order of `INFO.curves`.",
         roots: curves.iter().map(|curve| curve.argument).collect(),
         labels: names.map(|name| format!("argument_{name}")).collect(),
         of_parts: true,
@@ -386,7 +378,6 @@ fn pivots(from: &Source<'_>) -> Option<Specification> {
     let pivots = some(&from.equations.pivots)?;
     let results = Results::Array(Length::Number(pivots.len()));
     Some(Specification {
-        documentation: "Pivots of the elimination that may vanish, as shares of what stands in their place before.",
         roots: values(pivots),
         labels: named("pivot_", pivots),
         ..from.of_state("pivots", Method::Pivots, results)
@@ -398,55 +389,9 @@ fn conditions(from: &Source<'_>) -> Option<Specification> {
     let results = Results::Array(Length::Number(conditions.len()));
     let numbers = 1..=conditions.len();
     Some(Specification {
-        documentation: "What parameters must keep, in the order of `INFO.conditions`.",
         roots: conditions.iter().map(|condition| condition.value).collect(),
         labels: numbers.map(|k| format!("condition_{k}")).collect(),
         ..of_parameters("conditions", Method::Conditions, results)
-    })
-}
-
-fn kinetic_energy(from: &Source<'_>) -> Option<Specification> {
-    Some(Specification {
-        documentation: "T of all elements \\[J\\].",
-        roots: vec![from.equations.kinetic_energy],
-        labels: vec!["kinetic_energy".to_owned()],
-        of_parts: true,
-        ..from.of_state("kinetic_energy", Method::KineticEnergy, Results::Scalar)
-    })
-}
-
-fn powers(from: &Source<'_>) -> Option<Specification> {
-    let powers = some(&from.equations.powers)?;
-    let results = Results::Array(Length::Powers);
-    Some(Specification {
-        documentation: "Power of each effect \\[W\\], in the order of `INFO.powers`: together the rate of the kinetic energy.",
-        roots: values(powers),
-        labels: named("power_", powers),
-        start: Start::Accelerations,
-        of_parts: true,
-        ..from.of_state("powers", Method::Powers, results)
-    })
-}
-
-fn momentum(from: &Source<'_>) -> Option<Specification> {
-    let momentum = some(&from.equations.momentum)?;
-    Some(Specification {
-        documentation: "Linear \\[N s\\] and angular momentum about the origin \\[N m s\\] of what is free, absolute axes.",
-        roots: momentum.to_vec(),
-        labels: labels("momentum_", &AXES.map(String::from), ""),
-        of_parts: true,
-        ..from.of_state("momentum", Method::Momentum, SIX)
-    })
-}
-
-fn external_wrench(from: &Source<'_>) -> Option<Specification> {
-    some(&from.equations.momentum)?;
-    Some(Specification {
-        documentation: "Force \\[N\\] and moment about the origin \\[N m\\] on what is free: the rate of its momentum.",
-        roots: from.equations.external_wrench.clone(),
-        labels: labels("external_wrench_", &AXES.map(String::from), ""),
-        of_parts: true,
-        ..from.of_state("external_wrench", Method::ExternalWrench, SIX)
     })
 }
 
@@ -454,7 +399,6 @@ fn outputs(from: &Source<'_>) -> Option<Specification> {
     let outputs = from.model.outputs.iter();
     let results = Results::Array(Length::Outputs);
     Some(Specification {
-        documentation: "What the scene asks to see, in the order and units of `INFO.outputs`.",
         roots: from.equations.outputs.clone(),
         labels: outputs.map(|output| output.name.clone()).collect(),
         start: Start::Accelerations,
@@ -464,16 +408,12 @@ fn outputs(from: &Source<'_>) -> Option<Specification> {
     })
 }
 
-/// Components of a linear and an angular vector.
-const AXES: [&str; 6] = ["x", "y", "z", "about_x", "about_y", "about_z"];
-const SIX: Results = Results::Array(Length::Number(6));
-
 /// A method of parameters alone, without results so far.
 fn of_parameters(name: &'static str, part_of: Method, results: Results) -> Specification {
     Specification {
         name,
         part_of: Some(part_of),
-        documentation: "",
+        documentation: part_of.sentence(),
         arguments: Vec::new(),
         roots: Vec::new(),
         labels: Vec::new(),
@@ -502,6 +442,27 @@ impl Source<'_> {
         Specification {
             arguments: all.into_iter().filter(there).collect(),
             ..of_parameters(name, part_of, results)
+        }
+    }
+
+    /// The method of a section.
+    fn section(&self, section: &Section) -> Specification {
+        let name = section.method.name();
+        let one = name.strip_suffix('s').unwrap_or(name);
+        let label = |named: &Named| match named.name.as_str() {
+            "" => name.to_owned(),
+            of => format!("{one}_{}", snake(of)),
+        };
+        let results = match &section.values[..] {
+            [alone] if alone.name.is_empty() => Results::Scalar,
+            values => Results::Array(Length::Number(values.len())),
+        };
+        Specification {
+            roots: values(&section.values),
+            labels: section.values.iter().map(label).collect(),
+            start: section.start,
+            of_parts: true,
+            ..self.of_state(name, section.method, results)
         }
     }
 

@@ -3,6 +3,7 @@
 use super::breakpoints;
 use crate::equations::{Equations, LEAST_VOLUME, NO_BEARING, Variable};
 use crate::law::ForceKind;
+use crate::method::Method;
 use crate::model::{Dimension, Extrapolate, Model};
 
 /// Names, units and sizes of a model.
@@ -146,13 +147,13 @@ impl Facts {
             onsets: names(&equations.onsets, |onset| &onset.name),
             corners: equations.corners,
             longest_step: longest_step(model),
-            powers: names(&equations.powers, |power| &power.name),
+            powers: names(equations.section(Method::Powers), |power| &power.name),
             curves: watched(model, equations),
             time_ends: of_time
                 .any(|&(curve, _)| model.curves[curve].extrapolate == Extrapolate::Error),
             pivots: names(&equations.pivots, |pivot| &pivot.name),
             conditions: names(&equations.conditions, |condition| &condition.name),
-            free: !equations.momentum.is_empty(),
+            free: !equations.section(Method::Momentum).is_empty(),
             outputs: (model.outputs.iter())
                 .map(|output| Column {
                     name: output.name.clone(),

@@ -4,61 +4,47 @@ use super::{Input, List, Lists, Method, Operation, Start, Value};
 use crate::expression::Function;
 use rustc_hash::FxHashMap;
 
-/// Methods that are often evaluated at the same time and state. Evaluated together they are cheaper, because they share
-/// many operations, above all those of contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Combination {
-    /// The event functions, with the accelerations that they start from.
-    EventFunctions,
-    /// The outputs, with the accelerations that they start from.
-    Outputs,
-    /// The terms of balances within a step: powers and external_wrench.
-    Exchange,
-    /// The results that a time loop needs at the end of a step: event functions, onsets, and the memory renewed
-    /// according to these event functions.
-    Arrival,
-    /// The same, with the arguments of curves.
-    ArrivalWithCurves,
-    /// The same as `ArrivalWithCurves`, with the terms of balances: kinetic energy, powers, momentum and
-    /// external_wrench.
-    WatchedArrival,
+/// A set of methods that are evaluated at the same time and state: their results follow one another in the order of
+/// [`Method::ALL`]. Evaluated together they are cheaper, because they share many operations, above all those of contacts.
+///
+/// A set is greater than another if its last method is a later one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Methods(u32);
+
+impl Methods {
+    /// True if the method is one of them.
+    pub const fn contains(self, method: Method) -> bool {
+        self.0 >> method as u32 & 1 == 1
+    }
+
+    /// These and one more.
+    pub const fn with(self, method: Method) -> Self {
+        Methods(self.0 | 1 << method as u32)
+    }
+
+    /// The only one; `None` if there are several or none.
+    pub fn one(self) -> Option<Method> {
+        let one = self.0.is_power_of_two();
+        one.then(|| Method::ALL[self.0.trailing_zeros() as usize])
+    }
+
+    /// All of them, in the order of their results.
+    pub fn iter(self) -> impl Iterator<Item = Method> {
+        Method::ALL
+            .into_iter()
+            .filter(move |method| self.contains(*method))
+    }
 }
 
-impl Combination {
-    /// All combinations, in the order of their numbers.
-    pub const ALL: [Combination; 6] = [
-        Combination::EventFunctions,
-        Combination::Outputs,
-        Combination::Exchange,
-        Combination::Arrival,
-        Combination::ArrivalWithCurves,
-        Combination::WatchedArrival,
-    ];
+impl From<Method> for Methods {
+    fn from(method: Method) -> Self {
+        Methods::default().with(method)
+    }
+}
 
-    /// The methods whose results the combination has, one after the other.
-    pub const fn methods(self) -> &'static [Method] {
-        match self {
-            Combination::EventFunctions => &[Method::EventFunctions],
-            Combination::Outputs => &[Method::Outputs],
-            Combination::Exchange => &[Method::Powers, Method::ExternalWrench],
-            Combination::Arrival => &[Method::EventFunctions, Method::Onsets, Method::Renewed],
-            Combination::ArrivalWithCurves => &[
-                Method::EventFunctions,
-                Method::Onsets,
-                Method::Renewed,
-                Method::Curves,
-            ],
-            Combination::WatchedArrival => &[
-                Method::EventFunctions,
-                Method::Onsets,
-                Method::Renewed,
-                Method::Curves,
-                Method::KineticEnergy,
-                Method::Powers,
-                Method::Momentum,
-                Method::ExternalWrench,
-            ],
-        }
+impl FromIterator<Method> for Methods {
+    fn from_iter<I: IntoIterator<Item = Method>>(methods: I) -> Self {
+        methods.into_iter().fold(Methods::default(), Methods::with)
     }
 }
 
@@ -66,21 +52,22 @@ impl Lists {
     /// Several methods as one list that needs only time, state and parameters: accelerations or event functions from
     /// which a method starts are computed in the list. The operations are those of the methods, so the results have the
     /// same bits.
-    pub fn combined(&self, combination: Combination) -> List {
-        let wanted = combination.methods();
+    pub fn combined(&self, wanted: Methods) -> List {
         let coordinates = self.facts.coordinates.len();
-        let starts = |start| move |method: &Method| self.routine(*method).start == start;
-        let from_event_functions = wanted.iter().any(starts(Start::EventFunctions));
-        let mut methods = wanted.to_vec();
-        if from_event_functions && !wanted.contains(&Method::EventFunctions) {
-            methods.insert(0, Method::EventFunctions);
+        let mut needed: Vec<Method> = wanted.iter().collect();
+        for (start, by) in [
+            (Start::EventFunctions, Method::EventFunctions),
+            (Start::Accelerations, Method::Derivative),
+        ] {
+            let starts = |method: &Method| self.routine(*method).start == start;
+            if !needed.contains(&by) && needed.iter().any(starts) {
+                needed.push(by);
+            }
         }
-        if methods.iter().any(starts(Start::Accelerations)) {
-            methods.insert(0, Method::Derivative);
-        }
-        let parts = methods.iter().map(|method| Part {
+        needed.sort_unstable();
+        let parts = needed.iter().map(|method| Part {
             list: self.list(*method),
-            wanted: wanted.contains(method),
+            wanted: wanted.contains(*method),
             gives: match method {
                 Method::Derivative => Gives::Accelerations(coordinates),
                 Method::EventFunctions => Gives::EventFunctions,

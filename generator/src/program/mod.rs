@@ -46,7 +46,7 @@ pub use crate::method::{Method, Start};
 pub(crate) use assemble::neighbours;
 pub use assemble::{counted_lists, lists};
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
-pub use join::Combination;
+pub use join::Methods;
 pub use list::{Input, List, Operation, Value};
 pub use lists::{Curve, Lists, Routine};
 

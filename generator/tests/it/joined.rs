@@ -1,6 +1,6 @@
 //! Lists that join several methods: what the methods have in common is computed once.
 
-use bryant_generator::program::{Combination, List, Method, Operation};
+use bryant_generator::program::{List, Method, Operation};
 use bryant_generator::{Config, expression::Function};
 use std::path::Path;
 
@@ -26,7 +26,11 @@ fn power_and_wrench_of_a_contact_need_one_search() {
                 "{scene}: {method:?}"
             );
         }
-        let joined = lists.combined(Combination::Exchange);
+        let joined = lists.combined(
+            [Method::Powers, Method::ExternalWrench]
+                .into_iter()
+                .collect(),
+        );
         assert_eq!(searches(&joined), contacts, "{scene}: joined");
     }
 }

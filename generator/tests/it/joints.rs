@@ -6,6 +6,7 @@ use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::{Equations, Route};
 use bryant_generator::expression::NodeId;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::method::Method;
 use bryant_generator::model::Model;
 use bryant_generator::read_str;
 use nalgebra::{DMatrix, DVector};
@@ -396,7 +397,12 @@ fn gears_move_as_their_ratio_says() {
         apart(&outputs, &wheel) < 1e-14 * expected.abs(),
         "{outputs:?} {wheel:?}"
     );
-    let energy = values(&equations, &[equations.kinetic_energy], &[q], &[v])[0];
+    let energy = values(
+        &equations,
+        &[equations.section(Method::KineticEnergy)[0].value],
+        &[q],
+        &[v],
+    )[0];
     assert!(
         (energy - 0.5 * (0.25 + 0.2) * 9.0).abs() < 1e-14,
         "{energy}"

@@ -10,6 +10,7 @@ mod repaired;
 use bryant_generator::Diagnostics;
 use bryant_generator::dynamics::derive;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::method::Method;
 use bryant_generator::model::Model;
 use bryant_generator::read_str;
 use bryant_generator::urdf::{Base, Imported, Options, import};
@@ -226,7 +227,7 @@ fn motion(model: &Model) -> Vec<f64> {
             memory: &[],
         };
         let mut roots = equations.accelerations.clone();
-        roots.push(equations.kinetic_energy);
+        roots.push(equations.section(Method::KineticEnergy)[0].value);
         all.extend(evaluate(
             &equations.graph,
             &roots,

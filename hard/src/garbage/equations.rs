@@ -14,6 +14,7 @@ use bryant_generator::equations::{Equations, LawState, Route};
 use bryant_generator::expression::differentiate::differentiate_along;
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_generator::expression::{Graph, NodeId, Symbol, sum};
+use bryant_generator::method::Method;
 use bryant_generator::model::{Dimension, Model, Reference};
 
 /// Random models.
@@ -212,15 +213,25 @@ fn powers(
     state: &State,
 ) -> Result<(), String> {
     let graph = &equations.graph;
-    let power = sum(graph, equations.powers.iter().map(|p| graph.expr(p.value)));
-    let derived = differentiate_along(graph, &[equations.kinetic_energy], |symbol| {
-        graph.expr(match symbol {
-            Symbol::Time => graph.constant(1.0).id(),
-            Symbol::Coordinate(i) => equations.coordinate_rates[i as usize],
-            Symbol::Velocity(i) => equations.accelerations[i as usize],
-            _ => graph.constant(0.0).id(),
-        })
-    });
+    let power = sum(
+        graph,
+        equations
+            .section(Method::Powers)
+            .iter()
+            .map(|p| graph.expr(p.value)),
+    );
+    let derived = differentiate_along(
+        graph,
+        &[equations.section(Method::KineticEnergy)[0].value],
+        |symbol| {
+            graph.expr(match symbol {
+                Symbol::Time => graph.constant(1.0).id(),
+                Symbol::Coordinate(i) => equations.coordinate_rates[i as usize],
+                Symbol::Velocity(i) => equations.accelerations[i as usize],
+                _ => graph.constant(0.0).id(),
+            })
+        },
+    );
     let rate = derived.map_err(|error| format!("{error:?}"))?[0];
     let rows = equations.applied_forces.iter().enumerate();
     let virtual_power = sum(

@@ -1,7 +1,7 @@
 //! Controls the errors of accelerations in the steps of lanes, as [`crate::integrate::acceleration`] does.
 
 use super::control::Power;
-use super::run::{Run, Section};
+use super::run::{Run, Work};
 use super::step::Step;
 use crate::Real;
 use crate::integrate::acceleration::effect_accelerations;
@@ -10,7 +10,7 @@ use crate::real::{Mask, Several};
 /// The largest accelerations that single effects cause at the starts of steps.
 struct EffectAccelerations;
 
-impl<T: Several> Section<T> for EffectAccelerations {
+impl<T: Several> Work<T> for EffectAccelerations {
     type Output = [T::Part; 2];
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> Self::Output {

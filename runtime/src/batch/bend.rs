@@ -7,7 +7,7 @@
 //! that the value is made up ([`CurveInfo::trusted`]), the run is doubtful.
 
 use super::copies;
-use super::run::{Run, Section, each};
+use super::run::{Run, Work, each};
 use crate::leap::Turning;
 use crate::model::CurveInfo;
 use crate::real::lanes::MOST_LANES;
@@ -118,7 +118,7 @@ struct LookWithin<T> {
     part: T,
 }
 
-impl<T: Several> Section<T> for LookWithin<T> {
+impl<T: Several> Work<T> for LookWithin<T> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {

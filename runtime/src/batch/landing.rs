@@ -8,7 +8,7 @@ use super::reach::Reach;
 use super::run::{Run, each, replace};
 use crate::real::{Mask, Several};
 use crate::simulate::finest;
-use crate::{Arrival, Real};
+use crate::{Real, Section};
 
 /// How the steps of all lanes ended.
 pub(super) struct Landing<T: Real> {
@@ -257,14 +257,16 @@ impl<T: Several> Run<'_, T> {
         let part = (ahead + (ahead - behind)).max(T::from_f64(0.0));
         self.step.inside(&*self.models.all, part, &mut self.state);
         let t = part * self.step.h + self.step.t;
-        let mut arrival = Arrival {
-            event_functions: &mut self.event_functions_ahead,
-            onsets: &mut self.onsets.values[END],
-            renewed: &mut self.renewed,
-            curves: &mut [],
-            account: None,
-        };
-        self.models.all.arrive(t, &self.state, &mut arrival);
+        let memory = self.info.length(Section::Renewed);
+        self.models.all.sections(
+            t,
+            &self.state,
+            &mut [
+                (Section::EventFunctions, &mut self.event_functions_ahead),
+                (Section::Onsets, &mut self.onsets.values[END]),
+                (Section::Renewed, &mut self.renewed[..memory]),
+            ],
+        );
         let kept = &self.renewed[self.info.varying_length()..];
         self.memory_ahead.copy_from_slice(kept);
     }

@@ -3,7 +3,7 @@
 use super::copies;
 use super::onset_cache::OnsetCache;
 use super::place::Places;
-use super::run::{Run, Section, each, replace};
+use super::run::{Run, Work, each, replace};
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
 use crate::simulate::onset::{
@@ -100,7 +100,7 @@ impl<T: Several> Onsets<T> {
 /// [`Run::hunt`]
 struct Chase<M>(M);
 
-impl<T: Several> Section<T> for Chase<T::Mask> {
+impl<T: Several> Work<T> for Chase<T::Mask> {
     type Output = T::Part;
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> T::Part {
@@ -114,7 +114,7 @@ struct Weigh<M, P> {
     part: P,
 }
 
-impl<T: Several> Section<T> for Weigh<T::Mask, T::Part> {
+impl<T: Several> Work<T> for Weigh<T::Mask, T::Part> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {

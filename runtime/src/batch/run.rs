@@ -37,7 +37,7 @@ use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
 use crate::simulate::standing::Standing;
-use crate::{Arrival, Family, Formula, Info, Real, Schedule};
+use crate::{Family, Formula, Info, Real, Schedule, Section};
 
 /// Smallest step \[s\].
 pub(super) const SMALLEST: f64 = 1e-14;
@@ -220,7 +220,7 @@ pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
 
 /// A section of the loop that is compiled as a function of its own, because it is long and called from several places,
 /// or rarely.
-pub(super) trait Section<T: Several> {
+pub(super) trait Work<T: Several> {
     /// The result of the section.
     type Output;
     /// Runs the section. Must be `#[inline(always)]`.
@@ -232,7 +232,7 @@ struct Apart<'a, 'b, T: Several, S> {
     section: S,
 }
 
-impl<T: Several, S: Section<T>> Task for Apart<'_, '_, T, S> {
+impl<T: Several, S: Work<T>> Task for Apart<'_, '_, T, S> {
     type Output = S::Output;
     #[inline(always)]
     fn run(self) -> S::Output {
@@ -243,7 +243,7 @@ impl<T: Several, S: Section<T>> Task for Apart<'_, '_, T, S> {
 /// [`Run::start`]
 struct Start<M>(M);
 
-impl<T: Several> Section<T> for Start<T::Mask> {
+impl<T: Several> Work<T> for Start<T::Mask> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {
@@ -254,7 +254,7 @@ impl<T: Several> Section<T> for Start<T::Mask> {
 impl<'a, T: Several> Run<'a, T> {
     /// Runs a section as a function of its own.
     #[inline(always)]
-    pub(super) fn apart<S: Section<T>>(&mut self, section: S) -> S::Output {
+    pub(super) fn apart<S: Work<T>>(&mut self, section: S) -> S::Output {
         T::dispatch_apart(Apart { run: self, section })
     }
 
@@ -459,15 +459,16 @@ impl<'a, T: Several> Run<'a, T> {
     /// Evaluates event functions, onsets and memory at the states where steps begin.
     #[inline(always)]
     pub(super) fn look_at_begin(&mut self) {
-        let mut arrival = Arrival {
-            event_functions: &mut self.event_functions_ahead,
-            onsets: &mut self.onsets.values[END],
-            renewed: &mut self.renewed,
-            curves: &mut [],
-            account: None,
-        };
-        let Step { t, y, .. } = &self.step;
-        self.models.all.arrive(*t, y, &mut arrival);
+        let memory = self.info.length(Section::Renewed);
+        self.models.all.sections(
+            self.step.t,
+            &self.step.y,
+            &mut [
+                (Section::EventFunctions, &mut self.event_functions_ahead),
+                (Section::Onsets, &mut self.onsets.values[END]),
+                (Section::Renewed, &mut self.renewed[..memory]),
+            ],
+        );
     }
 
     /// Evaluates event functions, onsets, memory and arguments of curves at the state in `end`, for steps that end at
@@ -477,14 +478,17 @@ impl<'a, T: Several> Run<'a, T> {
         if !lanes.any() {
             return;
         }
-        let mut arrival = Arrival {
-            event_functions: &mut self.event_functions_ahead,
-            onsets: &mut self.onsets.values[END],
-            renewed: &mut self.renewed,
-            curves: &mut self.bends.arguments,
-            account: None,
-        };
-        self.models.all.arrive(t, &self.end, &mut arrival);
+        let memory = self.info.length(Section::Renewed);
+        self.models.all.sections(
+            t,
+            &self.end,
+            &mut [
+                (Section::EventFunctions, &mut self.event_functions_ahead),
+                (Section::Onsets, &mut self.onsets.values[END]),
+                (Section::Renewed, &mut self.renewed[..memory]),
+                (Section::Curves, &mut self.bends.arguments),
+            ],
+        );
     }
 
     /// Takes one step in every lane that has a scenario.

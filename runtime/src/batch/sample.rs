@@ -2,7 +2,7 @@
 //! values found in the series of their lanes.
 
 use super::place::Places;
-use super::run::{Run, Section, each};
+use super::run::{Run, Work, each};
 use super::scenario::Series;
 use super::settings::Pace;
 use crate::Real;
@@ -32,7 +32,7 @@ impl Due {
 /// [`Run::sample`]
 struct Take<'a>(&'a mut Places<Due>);
 
-impl<T: Several> Section<T> for Take<'_> {
+impl<T: Several> Work<T> for Take<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {

@@ -6,7 +6,7 @@ use super::event::{
     width,
 };
 use super::place::Places;
-use super::run::{Run, Section, each};
+use super::run::{Run, Work, each};
 use crate::Real;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
@@ -19,7 +19,7 @@ const TOGETHER: f64 = 4.0;
 /// [`Run::look_at`]
 struct Look<'a>(Functions, &'a mut Places<(usize, f64)>);
 
-impl<T: Several> Section<T> for Look<'_> {
+impl<T: Several> Work<T> for Look<'_> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {
@@ -30,7 +30,7 @@ impl<T: Several> Section<T> for Look<'_> {
 /// [`Run::look_into`], followed by [`Run::found_inside`].
 struct Hidden<M>(M);
 
-impl<T: Several> Section<T> for Hidden<T::Mask> {
+impl<T: Several> Work<T> for Hidden<T::Mask> {
     type Output = T::Part;
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> T::Part {
@@ -47,7 +47,7 @@ struct Change<T: Several> {
     reached: T,
 }
 
-impl<T: Several> Section<T> for Change<T> {
+impl<T: Several> Work<T> for Change<T> {
     type Output = Option<(Sides<T>, T::Mask)>;
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) -> Self::Output {

@@ -54,11 +54,6 @@ impl<T: Real> Model<T> for Bumper<T> {
     type With<U: Real> = Bumper<U>;
     type Parameters = Parameters<T>;
     type State = [T; 3];
-    type Outputs = [T; 3];
-    type EventFunctions = [T; 1];
-    type Kinks = [T; 1];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
     const INFO: &'static Info = &Info {
         name: "bumper",
         digest: "",
@@ -127,8 +122,8 @@ impl<T: Real> Model<T> for Bumper<T> {
         rate[0] = y[1];
     }
     #[inline(always)]
-    fn outputs(&self, _: T, y: &[T; 3]) -> [T; 3] {
-        [y[0], self.force(y), y[1]]
+    fn outputs(&self, _: T, y: &[T; 3], results: &mut [T]) {
+        results.copy_from_slice(&[y[0], self.force(y), y[1]]);
     }
     fn normalize(&self, _: &mut [T; 3]) {}
     #[inline(always)]
@@ -137,14 +132,14 @@ impl<T: Real> Model<T> for Bumper<T> {
         y[2] = T::select(deep, T::from_f64(1.0), y[2]);
     }
     #[inline(always)]
-    fn event_functions(&self, _: T, y: &[T; 3]) -> [T; 1] {
+    fn event_functions(&self, _: T, y: &[T; 3], results: &mut [T]) {
         let never = T::from_f64(-1.0);
         let latched = T::from_f64(0.5).lt(y[2]);
-        [T::select(latched, never, y[0] - self.parameters.all[2])]
+        results.copy_from_slice(&[T::select(latched, never, y[0] - self.parameters.all[2])]);
     }
     #[inline(always)]
-    fn kinks(&self, _: T, y: &[T; 3]) -> [T; 1] {
-        [y[0]]
+    fn kinks(&self, _: T, y: &[T; 3], results: &mut [T]) {
+        results.copy_from_slice(&[y[0]]);
     }
 }
 
@@ -559,11 +554,6 @@ impl<T: Real> Model<T> for Swing<T> {
     type With<U: Real> = Swing<U>;
     type Parameters = Frequency<T>;
     type State = [T; 2];
-    type Outputs = [T; 1];
-    type EventFunctions = [T; 0];
-    type Kinks = [T; 0];
-    type Powers = [T; 0];
-    type Curves = [T; 0];
     const INFO: &'static Info = &Info {
         name: "swing",
         kinds: &[StateKind::Position, StateKind::Velocity],
@@ -601,8 +591,8 @@ impl<T: Real> Model<T> for Swing<T> {
         rate[0] = y[1];
     }
     #[inline(always)]
-    fn outputs(&self, _: T, y: &[T; 2]) -> [T; 1] {
-        [y[0]]
+    fn outputs(&self, _: T, y: &[T; 2], results: &mut [T]) {
+        results.copy_from_slice(&[y[0]]);
     }
     fn normalize(&self, _: &mut [T; 2]) {}
 }

@@ -3,12 +3,12 @@
 //! cost nothing here: they have that control, and the estimate of their error.
 
 use super::copies;
-use super::run::{Run, Section, each, replace};
+use super::run::{Run, Work, each, replace};
 use super::settings::{Fixed, Method, Pace};
 use super::step::Step;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several};
-use crate::simulate::balance::{NODES, Rule};
+use crate::simulate::balance::{NODES, Rule, exchange};
 use crate::simulate::watch::account::{
     Account, Energies, Entry, Stability, Unstable, rate_squared,
 };
@@ -114,7 +114,7 @@ impl<T: Several> Watch<T> {
 /// [`Run::open_accounts`]
 struct Open(u32);
 
-impl<T: Several> Section<T> for Open {
+impl<T: Several> Work<T> for Open {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {
@@ -129,7 +129,7 @@ struct AddWork<T: Real> {
     reached: T,
 }
 
-impl<T: Several> Section<T> for AddWork<T> {
+impl<T: Several> Work<T> for AddWork<T> {
     type Output = ();
     #[inline(always)]
     fn run(self, run: &mut Run<'_, T>) {
@@ -272,9 +272,9 @@ impl<T: Several> Run<'_, T> {
         let t = self.step.t;
         let fresh = accepted.and(watch.known.not());
         if fresh.any() {
-            model.exchange(
-                t,
-                &self.step.y,
+            exchange(
+                model,
+                (t, &self.step.y),
                 &mut watch.powers[ANY],
                 &mut watch.external_wrenches[ANY],
             );
@@ -289,13 +289,13 @@ impl<T: Several> Run<'_, T> {
             let t = theta * self.step.h + t;
             let (powers, external_wrench) =
                 (&mut watch.powers[node], &mut watch.external_wrenches[node]);
-            model.exchange(t, &self.state, powers, external_wrench);
+            exchange(model, (t, &self.state), powers, external_wrench);
         }
         let ends = reached.min(self.step.latest);
         let kinetic = model.kinetic_energy(ends, &self.end);
         let (powers, external_wrench) =
             (&mut watch.powers[LAST], &mut watch.external_wrenches[LAST]);
-        model.exchange(ends, &self.end, powers, external_wrench);
+        exchange(model, (ends, &self.end), powers, external_wrench);
         let momentum = match self.info.free {
             true => model.momentum(ends, &self.end),
             false => [T::from_f64(0.0); 6],

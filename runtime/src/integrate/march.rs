@@ -193,7 +193,7 @@ fn renew<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
     if M::INFO.memory.is_empty() {
         return;
     }
-    for _ in 0..=M::EventFunctions::LEN {
+    for _ in 0..=M::INFO.event_functions.len() {
         let before = *y;
         model.renew(t, y);
         if y.as_ref() == before.as_ref() {
@@ -278,7 +278,7 @@ mod tests {
 
     /// A model whose discrete state changes with every update is updated once more than it has event functions.
     fn renew_all<T: Real, M: Model<T>>(model: &M, t: T, y: &mut M::State) {
-        for _ in 0..=M::EventFunctions::LEN {
+        for _ in 0..=M::INFO.event_functions.len() {
             model.renew(t, y);
         }
     }

@@ -21,7 +21,7 @@ use crate::dynamics::{made, made_differentiable};
 use crate::patience::Patience;
 use crate::response::Answer;
 use crate::simulate::{self, Balance, ENERGY_LIMIT, Sample, SampleKind, Watch};
-use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report};
+use crate::{Adjustable, DoubleDouble, Family, Fast, Info, Model, Real, Report, Section};
 use reading::Signals;
 use std::ops::ControlFlow;
 
@@ -115,81 +115,21 @@ impl Entry {
         Ok(())
     }
 
-    /// The outputs, in the order and units of [`Info::outputs`].
+    /// The results of a section; none if the model does not have it.
     ///
     /// # Errors
     /// Those of [`Entry::derivative`].
-    pub fn outputs(
+    pub fn section(
         &self,
+        section: Section,
         parameters: &[Named],
         t: f64,
         y: &[f64],
-        outputs: &mut [f64],
-    ) -> Result<(), RunError> {
-        let lengths = [("outputs", outputs.len(), self.info.outputs.len())];
-        let model = self.at(parameters, y, &lengths)?;
-        model.outputs(t, y, outputs);
-        Ok(())
-    }
-
-    /// The kinetic energy \[J\] followed by the powers, in the order and units of [`Info::powers`].
-    ///
-    /// # Errors
-    /// Those of [`Entry::derivative`].
-    pub fn energy(
-        &self,
-        parameters: &[Named],
-        t: f64,
-        y: &[f64],
-        energy: &mut [f64],
-    ) -> Result<(), RunError> {
-        let lengths = [(
-            "energy and powers",
-            energy.len(),
-            1 + self.info.powers.len(),
-        )];
-        let model = self.at(parameters, y, &lengths)?;
-        energy[0] = model.kinetic_energy(t, y);
-        model.powers(t, y, &mut energy[1..]);
-        Ok(())
-    }
-
-    /// The event functions, in the order of [`Info::event_functions`].
-    ///
-    /// # Errors
-    /// Those of [`Entry::derivative`].
-    pub fn event_functions(
-        &self,
-        parameters: &[Named],
-        t: f64,
-        y: &[f64],
-        event_functions: &mut [f64],
-    ) -> Result<(), RunError> {
-        let lengths = [(
-            "event_functions",
-            event_functions.len(),
-            self.info.event_functions.len(),
-        )];
-        let model = self.at(parameters, y, &lengths)?;
-        model.event_functions(t, y, event_functions);
-        Ok(())
-    }
-
-    /// The non-smooth switching functions, in the order of [`Info::kinks`].
-    ///
-    /// # Errors
-    /// Those of [`Entry::derivative`].
-    pub fn kinks(
-        &self,
-        parameters: &[Named],
-        t: f64,
-        y: &[f64],
-        kinks: &mut [f64],
-    ) -> Result<(), RunError> {
-        let lengths = [("kinks", kinks.len(), self.info.kinks.len())];
-        let model = self.at(parameters, y, &lengths)?;
-        model.kinks(t, y, kinks);
-        Ok(())
+    ) -> Result<Vec<f64>, RunError> {
+        let model = self.at(parameters, y, &[])?;
+        let mut results = vec![0.0; self.info.length(section)];
+        model.sections(t, y, &mut [(section, &mut results)]);
+        Ok(results)
     }
 
     /// The first time after `t` at which a curve of time has a kink that depends on parameters
@@ -199,42 +139,6 @@ impl Entry {
     /// Those of [`Entry::model`].
     pub fn kink_after(&self, parameters: &[Named], t: f64) -> Result<f64, RunError> {
         Ok(self.model(parameters)?.kink_after(t))
-    }
-
-    /// The momentum, six numbers, followed by its rate, the net external wrench, six numbers.
-    ///
-    /// # Errors
-    /// Those of [`Entry::derivative`].
-    pub fn momentum(
-        &self,
-        parameters: &[Named],
-        t: f64,
-        y: &[f64],
-        momentum: &mut [f64],
-    ) -> Result<(), RunError> {
-        let lengths = [("momentum and external_wrench", momentum.len(), 12)];
-        let model = self.at(parameters, y, &lengths)?;
-        momentum[..6].copy_from_slice(&model.momentum(t, y));
-        momentum[6..].copy_from_slice(&model.external_wrench(t, y));
-        Ok(())
-    }
-
-    /// The state after a discrete update ([`Dynamics::renew`](crate::Dynamics::renew)).
-    ///
-    /// # Errors
-    /// Those of [`Entry::derivative`].
-    pub fn renewed(
-        &self,
-        parameters: &[Named],
-        t: f64,
-        y: &[f64],
-        renewed: &mut [f64],
-    ) -> Result<(), RunError> {
-        let lengths = [("state", renewed.len(), self.info.state_length())];
-        let model = self.at(parameters, y, &lengths)?;
-        renewed.copy_from_slice(y);
-        model.renew(t, renewed);
-        Ok(())
     }
 
     /// The model, after checks of the lengths of the state and of other slices, which are given as (what, given,
@@ -597,7 +501,7 @@ impl Outcome {
 
 #[cfg(test)]
 mod tests {
-    use super::{Entry, ErrorKind, Job, run, run_job, run_job_observed};
+    use super::{Entry, ErrorKind, Job, Section, run, run_job, run_job_observed};
     use crate::test_models::{Oscillator, Runaway};
     use crate::{Compiled, Model, ParameterSet};
     use std::ops::ControlFlow;
@@ -722,11 +626,10 @@ mod tests {
             .derivative(&parameters, 0.0, &[0.5, 3.0], &mut rate)
             .unwrap();
         assert_eq!(rate, [3.0, -2.0]);
-        let mut energy = [0.0];
-        entry
-            .outputs(&parameters, 0.0, &[0.5, 3.0], &mut energy)
-            .unwrap();
-        assert_eq!(energy, [5.0]);
+        let energy = entry.section(Section::Outputs, &parameters, 0.0, &[0.5, 3.0]);
+        assert_eq!(energy.unwrap(), [5.0]);
+        let powers = entry.section(Section::Powers, &parameters, 0.0, &[0.5, 3.0]);
+        assert_eq!(powers.unwrap(), []);
         assert_eq!(entry.initial_state(&parameters).unwrap(), [1.0, 0.0]);
         assert!(
             entry
@@ -735,7 +638,7 @@ mod tests {
         );
         assert!(
             entry
-                .derivative(&parameters, 0.0, &[0.5, 3.0], &mut energy)
+                .derivative(&parameters, 0.0, &[0.5, 3.0], &mut rate[..1])
                 .is_err()
         );
         assert_eq!(

@@ -6,7 +6,7 @@
 //! belong to its power.
 
 use super::Buffer;
-use crate::{Formula, Real};
+use crate::{Dynamics, Formula, Real, Section};
 
 /// The quadrature of powers over a step: one of two Lobatto rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +54,22 @@ impl Rule {
         let terms = self.weights().into_iter().enumerate();
         terms.filter(|(_, weight)| *weight != 0.0)
     }
+}
+
+/// Evaluates what flows into the balances at a time and a state: the powers, and the external wrench if a system is free.
+pub(crate) fn exchange<T: Real>(
+    model: &dyn Dynamics<T>,
+    (t, y): (T, &[T]),
+    powers: &mut [T],
+    external_wrench: &mut [T; 6],
+) {
+    let six = model.info().length(Section::ExternalWrench);
+    let external_wrench = &mut external_wrench[..six];
+    let mut wanted = [
+        (Section::Powers, powers),
+        (Section::ExternalWrench, external_wrench),
+    ];
+    model.sections(t, y, &mut wanted);
 }
 
 /// The balance of energy of a run.

@@ -11,7 +11,7 @@
 //! something: the controller and the first step (`integrate::control`), how a step meets a time (`schedule`), where an
 //! event function changes its sign and what hides within a step (`event`, `excursion`), which contacts a step may pass
 //! over (`onset`), when a balance does not close (`watch::account`), and what is evaluated where a step ends
-//! ([`Dynamics::arrive`]). The shared parts either compute with a number type, which is `f64` here and a register in a
+//! ([`Dynamics::sections`]). The shared parts either compute with a number type, which is `f64` here and a register in a
 //! batch, or they ask for values and are told them. The loops around them differ. In a batch, lanes use selection where
 //! a run branches; they take scenarios one after the other, pack places of several lanes into one register, and carry
 //! derivatives of event times. A run takes any scalar, implicit steppers and up to sixteen stages; it approaches kinks,

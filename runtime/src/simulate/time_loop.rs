@@ -34,7 +34,7 @@ use crate::integrate::acceleration::{
 use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
-use crate::{Arrival, Dynamics, Info, Real};
+use crate::{Dynamics, Info, Real, Section};
 use count::Vote;
 use onset::{END, KEPT, Onsets};
 use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
@@ -865,25 +865,28 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
 
     /// [`TimeLoop::arrive`] for either state; `watched` says whether to evaluate what the watch needs.
     fn arrive_at(&mut self, t: f64, of: State, watched: bool) {
-        let (curves, account) = match self.watch.as_mut().filter(|_| watched) {
-            Some(watch) => {
-                let (curves, account) = watch.arrival();
-                (curves, Some(account))
-            }
-            None => (&mut [][..], None),
-        };
-        let mut arrival = Arrival {
-            event_functions: self.event_functions_ahead,
-            onsets: self.onsets.at(END),
-            renewed: self.renewed,
-            curves,
-            account,
-        };
+        let renewed = self.info.length(Section::Renewed);
+        let mut wanted = [
+            (Section::EventFunctions, &mut *self.event_functions_ahead),
+            (Section::Onsets, self.onsets.at(END)),
+            (Section::Renewed, &mut self.renewed[..renewed]),
+            // what a watch needs, if there is one
+            (Section::Curves, &mut []),
+            (Section::KineticEnergy, &mut []),
+            (Section::Powers, &mut []),
+            (Section::Momentum, &mut []),
+            (Section::ExternalWrench, &mut []),
+        ];
         let state = match of {
             State::Ahead => &*self.ahead,
             State::Reached => &*self.y,
         };
-        self.model.arrive(T::from_f64(t), state, &mut arrival);
+        if let Some(watch) = self.watch.as_mut().filter(|_| watched) {
+            for (place, needed) in wanted[3..].iter_mut().zip(watch.arrival()) {
+                *place = needed;
+            }
+        }
+        self.model.sections(T::from_f64(t), state, &mut wanted);
     }
 
     /// Evaluates the kink functions at the start of the next step, unless they are known.

@@ -44,7 +44,7 @@ pub(crate) mod error;
 #[cfg(test)]
 mod tests;
 
-use super::balance::{NODES, Rule};
+use super::balance::{NODES, Rule, exchange};
 use super::event::inside;
 use super::time_loop::epsilon_of;
 use super::{Balance, Buffer, Diagnostic, Pace, Problem, Settings};
@@ -53,7 +53,7 @@ use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper};
 use crate::leap::Turning;
 use crate::model::{CurveInfo, CurveKind};
-use crate::{AccountArrival, Dynamics, Formula, Info, Real, StateKind};
+use crate::{Dynamics, Formula, Info, Real, Section, StateKind};
 use account::{Account, Energies, Entry, Stability, rate_squared};
 use error::{Errors, Estimated, over_halves};
 
@@ -403,7 +403,12 @@ impl<'a, T: Real> Watch<'a, T> {
     /// previous step.
     pub(super) fn begin(&mut self, model: &dyn Dynamics<T>, t: f64, y: &[T]) {
         let powers = &mut self.powers[..self.info.powers.len()];
-        model.exchange(T::from_f64(t), y, powers, &mut self.external_wrenches[0]);
+        exchange(
+            model,
+            (T::from_f64(t), y),
+            powers,
+            &mut self.external_wrenches[0],
+        );
     }
 
     /// Notes a discrete update at the end of a step that began at `before`. The next step begins with the values that
@@ -421,17 +426,24 @@ impl<'a, T: Real> Watch<'a, T> {
         self.external_wrenches[0] = self.external_wrenches[last];
     }
 
-    /// Returns the places that receive arguments of curves, energies and powers at the end of a step: before a kink
-    /// there, and before the discrete update.
-    pub(super) fn arrival(&mut self) -> (&mut [T], AccountArrival<'_, T>) {
-        let last = NODES - 1;
-        let account = AccountArrival {
-            kinetic_energy: &mut self.kinetic_ahead,
-            powers: &mut self.powers[last * self.info.powers.len()..],
-            momentum: &mut self.momentum_ahead,
-            external_wrench: &mut self.external_wrenches[last],
-        };
-        (&mut self.arguments, account)
+    /// The sections that a watch needs at the end of a step, before a kink there and before the discrete update, each
+    /// with the place that receives it.
+    pub(super) fn arrival(&mut self) -> [(Section, &mut [T]); 5] {
+        let (last, six) = (NODES - 1, self.info.length(Section::Momentum));
+        let powers = &mut self.powers[last * self.info.powers.len()..];
+        [
+            (Section::Curves, &mut self.arguments),
+            (
+                Section::KineticEnergy,
+                core::slice::from_mut(&mut self.kinetic_ahead),
+            ),
+            (Section::Powers, powers),
+            (Section::Momentum, &mut self.momentum_ahead[..six]),
+            (
+                Section::ExternalWrench,
+                &mut self.external_wrenches[last][..six],
+            ),
+        ]
     }
 
     /// Adds the work of a step, or of its first part of the given length, whose end has been evaluated
@@ -455,7 +467,7 @@ impl<'a, T: Real> Watch<'a, T> {
             inside(model, step, x * part, state);
             let t = T::from_f64(span.t + x * length);
             let powers = &mut self.powers[node * effects..][..effects];
-            model.exchange(t, state, powers, &mut self.external_wrenches[node]);
+            exchange(model, (t, state), powers, &mut self.external_wrenches[node]);
         }
         if self.info.free {
             self.balance

@@ -5,8 +5,8 @@ use bryant_generator::Config;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::real::{Base, Form};
 use bryant_runtime::{
-    AccountArrival, Adjustable, Arrival, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast,
-    Model, Real, Several, Width,
+    Adjustable, Compiled, DoubleDouble, Dual, Dynamics, Family, Fast, Model, Real, Section,
+    Several, Width,
 };
 use std::path::Path;
 use std::sync::Arc;
@@ -245,45 +245,29 @@ fn compare_at<T: Real, O: Of<T>>(
 ) {
     let info = expected.info();
     let name = info.name;
-    type Method<T> = fn(&dyn Dynamics<T>, T, &[T], &mut [T]);
-    let methods: [(&str, usize, Method<T>); 7] = [
-        ("derivative", y.len(), |m, t, y, out| {
-            m.derivative(t, y, out)
-        }),
-        ("coordinate rates", y.len(), |m, _, y, out| {
-            m.coordinate_rates(y, out)
-        }),
-        ("outputs", info.outputs.len(), |m, t, y, out| {
-            m.outputs(t, y, out)
-        }),
-        (
-            "event_functions",
-            info.event_functions.len(),
-            |m, t, y, out| m.event_functions(t, y, out),
-        ),
-        ("kinks", info.kinks.len(), |m, t, y, out| m.kinks(t, y, out)),
-        ("onsets", 2 * info.onsets.len(), |m, t, y, out| {
-            m.onsets(t, y, out)
-        }),
-        ("powers", info.powers.len(), |m, t, y, out| {
-            m.powers(t, y, out)
-        }),
-    ];
     let mut y = y.to_vec();
     let mut other = y.clone();
     expected.normalize(&mut y);
     found.normalize(&mut other);
     same::<T, O>(name, "normalized", &y, &other);
-    for (what, length, method) in methods {
+    let compare = |what: &str, length: usize, method: &dyn Fn(&dyn Dynamics<T>, &mut [T])| {
         let mut both = [(); 2].map(|()| vec![T::from_f64(0.25); length]);
-        method(expected, t, &y, &mut both[0]);
-        method(found, t, &y, &mut both[1]);
+        method(expected, &mut both[0]);
+        method(found, &mut both[1]);
         same::<T, O>(name, what, &both[0], &both[1]);
+    };
+    compare("derivative", y.len(), &|m, out| m.derivative(t, &y, out));
+    compare("coordinate rates", y.len(), &|m, out| {
+        m.coordinate_rates(&y, out)
+    });
+    for &section in Section::ALL {
+        let length = info.length(section);
+        compare(section.name(), length, &|m, out| {
+            if length > 0 {
+                m.section(section, t, &y, out);
+            }
+        });
     }
-    let mut both = [(); 2].map(|()| vec![T::from_f64(0.25); info.curves.len()]);
-    expected.curves(t, &y, &mut both[0]);
-    found.curves(t, &y, &mut both[1]);
-    same::<T, O>(name, "curves", &both[0], &both[1]);
     let pivots = [expected.smallest_pivot(t, &y), found.smallest_pivot(t, &y)];
     assert_eq!(
         pivots[0].map(|pivot| pivot.0),
@@ -291,100 +275,54 @@ fn compare_at<T: Real, O: Of<T>>(
     );
     let pivot = |of: &Option<(usize, T)>| of.map_or(T::from_f64(0.0), |pivot| pivot.1);
     same::<T, O>(name, "pivot", &[pivot(&pivots[0])], &[pivot(&pivots[1])]);
-    let energies = [expected.kinetic_energy(t, &y), found.kinetic_energy(t, &y)];
-    same::<T, O>(name, "kinetic energy", &energies[..1], &energies[1..]);
-    same::<T, O>(
-        name,
-        "momentum",
-        &expected.momentum(t, &y),
-        &found.momentum(t, &y),
-    );
-    same::<T, O>(
-        name,
-        "external_wrench",
-        &expected.external_wrench(t, &y),
-        &found.external_wrench(t, &y),
-    );
     compare_at_once::<T, O>(expected, found, t, &y);
-    let mut renewed = y.clone();
-    expected.renew(t, &mut y);
-    found.renew(t, &mut renewed);
-    same::<T, O>(name, "renewed", &y, &renewed);
 }
 
-/// Compares what one model computes at once with what the methods of another return one by one.
+/// Compares what both models compute at once with what one returns one by one.
 fn compare_at_once<T: Real, O: Of<T>>(
     expected: &dyn Dynamics<T>,
     found: &dyn Dynamics<T>,
     t: T,
     y: &[T],
 ) {
+    use Section::*;
     let info = expected.info();
-    let of = |length: usize| vec![T::from_f64(0.25); length];
-    let six = || [T::from_f64(0.25); 6];
-    let exchanges = [expected, found].map(|model| {
-        let (mut powers, mut external_wrench) = (of(info.powers.len()), six());
-        model.exchange(t, y, &mut powers, &mut external_wrench);
-        [powers, external_wrench.to_vec()].concat()
-    });
-    let [powers, external_wrench] = [
-        of(info.powers.len()),
-        expected.external_wrench(t, y).to_vec(),
+    let sets: [&[Section]; 7] = [
+        &[Powers, ExternalWrench],
+        &[EventFunctions, Onsets, Renewed],
+        &[EventFunctions, Onsets, Renewed, Curves],
+        &[
+            EventFunctions,
+            Onsets,
+            Renewed,
+            Curves,
+            KineticEnergy,
+            Powers,
+            Momentum,
+            ExternalWrench,
+        ],
+        Section::ALL,
+        // in another order, and one twice
+        &[Outputs, Powers, Renewed, Kinks],
+        &[Momentum, Powers, Powers],
     ];
-    let mut one_by_one = [
-        powers,
-        if info.free {
-            external_wrench
-        } else {
-            six().to_vec()
-        },
-    ]
-    .concat();
-    expected.powers(t, y, &mut one_by_one[..info.powers.len()]);
-    for exchange in &exchanges {
-        same::<T, O>(info.name, "exchange", &one_by_one, exchange);
+    for sections in sets {
+        let of = |section: &Section| vec![T::from_f64(0.25); info.length(*section)];
+        let mut one_by_one: Vec<Vec<T>> = sections.iter().map(of).collect();
+        for (section, results) in sections.iter().zip(&mut one_by_one) {
+            if !results.is_empty() {
+                expected.section(*section, t, y, results);
+            }
+        }
+        for model in [expected, found] {
+            let mut at_once: Vec<Vec<T>> = sections.iter().map(of).collect();
+            let places = at_once.iter_mut().map(|place| &mut place[..]);
+            let mut wanted: Vec<_> = sections.iter().copied().zip(places).collect();
+            model.sections(t, y, &mut wanted);
+            let what = format!("{sections:?} at once");
+            same::<T, O>(info.name, &what, &one_by_one.concat(), &at_once.concat());
+        }
     }
-    for wanted in 0..3 {
-        let arrivals = [expected, found].map(|model| arrival(model, wanted, t, y));
-        same::<T, O>(info.name, "arrival", &arrivals[0], &arrivals[1]);
-    }
-}
-
-/// What a model tells of the end of a step: without curves, with them, or with all that a watch wants.
-fn arrival<T: Real>(model: &dyn Dynamics<T>, wanted: u8, t: T, y: &[T]) -> Vec<T> {
-    let info = model.info();
-    let of = |count: usize| vec![T::from_f64(0.25); count];
-    let [
-        mut event_functions,
-        mut onsets,
-        mut renewed,
-        mut curves,
-        mut powers,
-    ] = [
-        info.event_functions.len(),
-        2 * info.onsets.len(),
-        y.len(),
-        if wanted > 0 { info.curves.len() } else { 0 },
-        info.powers.len(),
-    ]
-    .map(of);
-    let [mut momentum, mut external_wrench] = [[T::from_f64(0.25); 6]; 2];
-    let mut energy = T::from_f64(0.25);
-    let mut arrival = Arrival {
-        event_functions: &mut event_functions,
-        onsets: &mut onsets,
-        renewed: &mut renewed,
-        curves: &mut curves,
-        account: (wanted > 1).then_some(AccountArrival {
-            kinetic_energy: &mut energy,
-            powers: &mut powers,
-            momentum: &mut momentum,
-            external_wrench: &mut external_wrench,
-        }),
-    };
-    model.arrive(t, y, &mut arrival);
-    let few = [&[energy][..], &momentum, &external_wrench].concat();
-    [few, event_functions, onsets, renewed, curves, powers].concat()
 }
 
 /// A scalar that tests make from random numbers.

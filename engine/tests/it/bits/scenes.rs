@@ -1,6 +1,6 @@
 //! Scenes of real size. Machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states where
-//! contacts, stops and belts act, with and without slopes. Rows of parameters have the same bits in lanes of every width. Other ways to ask give the
-//! same bits: outputs of which only some are wanted, and discrete updates with event functions that are already known.
+//! contacts, stops and belts act, with and without slopes. Rows of parameters have the same bits in lanes of every width. Outputs of which only
+//! some are wanted have the same bits.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -9,7 +9,7 @@ use bryant_runtime::batch::{Pace, Settings};
 use bryant_runtime::real::Array8;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
 use bryant_runtime::{
-    Adjustable, Dual, Dynamics, Formula, Method as RunMethod, Real, Reason, Response,
+    Adjustable, Dual, Dynamics, Formula, Method as RunMethod, Real, Reason, Response, Section,
     Settings as RunSettings, Several, Tolerances, Width, simulate,
 };
 use std::ops::ControlFlow;
@@ -69,8 +69,6 @@ fn state<T: Real>(
     y
 }
 
-type Method<T> = (&'static str, usize, fn(&dyn Dynamics<T>, T, &[T], &mut [T]));
-
 fn same<T: Real>(what: &str, lanes: &Lanes<T>, one: &[T], other: &[T]) {
     for (index, (one, other)) in one.iter().zip(other).enumerate() {
         assert_eq!((lanes.bits)(*one), (lanes.bits)(*other), "{what} {index}");
@@ -81,64 +79,25 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
     let engine = engine(name);
     let (code, interpreted) = (engine.over::<T>(), engine.interpreted::<T>());
     let info = engine.info();
-    let methods: [Method<T>; 6] = [
-        ("derivative", info.state_length(), |m, t, y, out| {
-            m.derivative(t, y, out);
-        }),
-        ("outputs", info.outputs.len(), |m, t, y, out| {
-            m.outputs(t, y, out);
-        }),
-        (
-            "event_functions",
-            info.event_functions.len(),
-            |m, t, y, out| {
-                m.event_functions(t, y, out);
-            },
-        ),
-        ("kinks", info.kinks.len(), |m, t, y, out| {
-            m.kinks(t, y, out);
-        }),
-        ("onsets", 2 * info.onsets.len(), |m, t, y, out| {
-            m.onsets(t, y, out);
-        }),
-        ("curves", info.curves.len(), |m, t, y, out| {
-            m.curves(t, y, out);
-        }),
-    ];
     let weyl = &mut Weyl(0.1);
     let nought = T::from_f64(0.0);
     for round in 0..12 {
         let reach = [0.0, 1e-3, 0.03, 0.2][round % 4];
         let y = state::<T>(&code, lanes, reach, weyl);
         let t = (lanes.of)(&[(); MOST_LANES].map(|()| 0.08 * (1.0 + weyl.next())));
-        for (method, count, run) in &methods {
-            let [mut found, mut wanted] = [vec![nought; *count], vec![nought; *count]];
-            run(&code, t, &y, &mut found);
-            run(&interpreted, t, &y, &mut wanted);
-            same(&format!("{name}: {method}"), lanes, &found, &wanted);
+        let compare = |what: &str, count: usize, run: &dyn Fn(&dyn Dynamics<T>, &mut [T])| {
+            let [mut found, mut wanted] = [vec![nought; count], vec![nought; count]];
+            run(&code, &mut found);
+            run(&interpreted, &mut wanted);
+            same(&format!("{name}: {what}"), lanes, &found, &wanted);
+        };
+        compare("derivative", y.len(), &|m, out| m.derivative(t, &y, out));
+        for &section in Section::ALL {
+            compare(section.name(), info.length(section), &|m, out| {
+                m.section(section, t, &y, out);
+            });
         }
-        renewed(name, lanes, [&code, &interpreted], t, &y);
         some_outputs(name, lanes, &engine, t, &y);
-    }
-}
-
-/// Discrete updates, with and without event functions that are already known.
-fn renewed<T: Real>(name: &str, lanes: &Lanes<T>, models: [&dyn Dynamics<T>; 2], t: T, y: &[T]) {
-    let mut plain = y.to_vec();
-    models[1].renew(t, &mut plain);
-    for model in models {
-        let mut event_functions = vec![T::from_f64(0.0); model.info().event_functions.len()];
-        model.event_functions(t, y, &mut event_functions);
-        let [mut by, mut without] = [y.to_vec(), y.to_vec()];
-        model.renew_by(t, &mut by, &event_functions);
-        model.renew(t, &mut without);
-        same(&format!("{name}: renewed"), lanes, &without, &plain);
-        same(
-            &format!("{name}: renewed by event functions"),
-            lanes,
-            &by,
-            &plain,
-        );
     }
 }
 

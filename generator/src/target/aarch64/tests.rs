@@ -438,18 +438,18 @@ fn a_function_saves_what_it_must_restore() {
         [
             "sub sp, sp, #0x40",
             "stp x29, x30, [sp]",
-            "stp x25, x26, [sp, #0x10]",
+            "stp x23, x24, [sp, #0x10]",
             "stp d8, d9, [sp, #0x20]",
             "stp d14, d15, [sp, #0x30]",
             "mov x29, sp",
-            "ldr x26, [x0, #0x38]"
+            "ldr x24, [x0, #0x28]"
         ]
     );
     assert_eq!(
         texts(|encoder| bases.leave(encoder, written)),
         [
             "ldp x29, x30, [sp]",
-            "ldp x25, x26, [sp, #0x10]",
+            "ldp x23, x24, [sp, #0x10]",
             "ldp d8, d9, [sp, #0x20]",
             "ldp d14, d15, [sp, #0x30]",
             "add sp, sp, #0x40",
@@ -462,19 +462,19 @@ fn a_function_saves_what_it_must_restore() {
 fn constants_are_found_from_near_and_from_far() {
     let mut bases = Bases::new(false);
     bases.base(Base::State);
-    bases.base(Base::Accelerations);
+    bases.base(Base::Parameters);
     bases.constants();
-    let near = texts(|encoder| bases.enter(encoder, 0, 0x100, false));
-    assert_eq!(near, ["ldp x2, x3, [x0, #0x8]", "adr x10, $+0x104"]);
+    let near = texts(|encoder| bases.enter(encoder, 0, 0x80, false));
+    assert_eq!(near, ["ldp x2, x3, [x0, #0x8]", "adr x8, $+0x84"]);
     let far = texts(|encoder| bases.enter(encoder, 0, 0x12_3400, true));
     assert_eq!(
         far,
         [
             "ldp x2, x3, [x0, #0x8]",
-            "adr x10, $+0x0",
+            "adr x8, $+0x0",
             "mov w16, #0x3410",
             "movk w16, #0x12, lsl #16",
-            "add x10, x10, x16"
+            "add x8, x8, x16"
         ]
     );
 }
@@ -486,15 +486,15 @@ fn a_call_hands_over_addresses() {
     assert_eq!(
         texts(|encoder| bases.call(encoder, 3, arguments, results)),
         [
-            "add x1, x26, #0x8",
-            "add x2, x25, #0x5, lsl #12",
-            "ldp x16, x0, [x27, #0x30]",
+            "add x1, x24, #0x8",
+            "add x2, x23, #0x5, lsl #12",
+            "ldp x16, x0, [x25, #0x30]",
             "blr x16"
         ]
     );
     assert_eq!(
         texts(|encoder| bases.call(encoder, 40, arguments, results))[2..],
-        ["add x17, x27, #0x280", "ldp x16, x0, [x17]", "blr x16"]
+        ["add x17, x25, #0x280", "ldp x16, x0, [x17]", "blr x16"]
     );
 }
 

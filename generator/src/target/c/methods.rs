@@ -29,98 +29,6 @@ impl Function {
     }
 }
 
-/// A method whose results are written to an array unchanged.
-struct Plain {
-    method: Method,
-    name: &'static str,
-    results: &'static str,
-    about: &'static str,
-}
-
-const PLAIN: [Plain; 12] = [
-    plain(
-        Method::Derivative,
-        "derivative",
-        "rate",
-        "The rate of the state at time t [s].",
-    ),
-    plain(Method::Outputs, "outputs", "outputs", "The outputs."),
-    plain(
-        Method::EventFunctions,
-        "event_functions",
-        "event_functions",
-        "Functions at whose change of sign a step is to end, and renew is to be called.",
-    ),
-    plain(
-        Method::Kinks,
-        "kinks",
-        "kinks",
-        "Functions at whose change of sign a force is not smooth.",
-    ),
-    plain(
-        Method::Onsets,
-        "onsets",
-        "onsets",
-        "The gap of each onset, then the speed at which each closes at most: what may begin to act within a step.",
-    ),
-    plain(
-        Method::Curves,
-        "curves",
-        "arguments",
-        "What the curves of the state are evaluated at.",
-    ),
-    plain(
-        Method::Powers,
-        "powers",
-        "powers",
-        "Power of each effect [W].",
-    ),
-    plain(
-        Method::Momentum,
-        "momentum",
-        "momentum",
-        "Linear [N s] and angular momentum about the origin [N m s], six numbers.",
-    ),
-    plain(
-        Method::ExternalWrench,
-        "external_wrench",
-        "external_wrench",
-        "The rate of the momentum that forces from outside give, six numbers [N], [N m].",
-    ),
-    plain(
-        Method::VelocityForces,
-        "velocity_forces",
-        "forces",
-        "r_s: the forces that depend on velocities, as in S dv/dt = r_s + r_k.",
-    ),
-    plain(
-        Method::AppliedForces,
-        "applied_forces",
-        "forces",
-        "r_k: the applied forces, as in S dv/dt = r_s + r_k.",
-    ),
-    plain(
-        Method::CoordinateRates,
-        "coordinate_rates",
-        "rate",
-        "The rate of q, from q and v alone.",
-    ),
-];
-
-const fn plain(
-    method: Method,
-    name: &'static str,
-    results: &'static str,
-    about: &'static str,
-) -> Plain {
-    Plain {
-        method,
-        name,
-        results,
-        about,
-    }
-}
-
 /// Writes the C functions of one model.
 pub(super) struct Methods<'a> {
     pub lists: &'a Lists,
@@ -132,17 +40,21 @@ pub(super) struct Methods<'a> {
 impl Methods<'_> {
     /// All functions, in the order in which the header declares them.
     pub fn all(&mut self) -> Vec<Function> {
-        let mut functions = vec![self.new_model(), self.initial_state()];
-        for plain in &PLAIN {
-            functions.extend(self.plain(plain));
+        let mut functions = vec![self.new_model()];
+        for method in Method::ALL {
+            match method {
+                Method::InitialState => functions.push(self.initial_state()),
+                Method::KineticEnergy => functions.extend(self.kinetic_energy()),
+                Method::MassMatrix => functions.extend(self.mass_matrix()),
+                Method::Renewed => functions.extend(self.renew()),
+                Method::Pivots => functions.extend(self.smallest_pivot()),
+                Method::Conditions => functions.extend(self.violated()),
+                Method::KinkRates => functions.push(self.kink_after()),
+                Method::Derived => {}
+                _ => functions.extend(self.plain(method)),
+            }
         }
-        functions.extend(self.kinetic_energy());
-        functions.extend(self.mass_matrix());
-        functions.extend(self.renew());
         functions.push(self.normalize());
-        functions.extend(self.smallest_pivot());
-        functions.extend(self.violated());
-        functions.push(self.kink_after());
         functions
     }
 
@@ -238,7 +150,7 @@ impl Methods<'_> {
             "    (void)m;\n"
         };
         Function {
-            about: comment_of("The state in which a run begins."),
+            about: comment_of(Method::InitialState.sentence()),
             head: format!("void {name}_initial_state(const {name}_model *m, double y[])"),
             before: String::new(),
             body: format!(
@@ -248,13 +160,14 @@ impl Methods<'_> {
         }
     }
 
-    fn plain(&mut self, plain: &Plain) -> Option<Function> {
-        if !self.exists(plain.method) {
+    /// A method whose results are written to an array unchanged.
+    fn plain(&mut self, method: Method) -> Option<Function> {
+        if !self.exists(method) {
             return None;
         }
-        let name = self.name;
-        let [function, call] = self.inner(plain.method, plain.name, plain.results);
-        let time = match plain.method {
+        let (name, short) = (self.name, method.name());
+        let [function, call] = self.inner(method, short, short);
+        let time = match method {
             Method::CoordinateRates => "",
             _ => "double t, ",
         };
@@ -264,20 +177,19 @@ impl Methods<'_> {
         }
         text.push_str(&call);
         let facts = &self.lists.facts;
-        if plain.method == Method::Derivative && !facts.memory.is_empty() {
+        if method == Method::Derivative && !facts.memory.is_empty() {
             let (state, memory) = (facts.kinds.len(), facts.memory.len());
             let varying = state - memory;
             let _ = write!(
                 text,
-                "    {{\n        int i;\n        for (i = {varying}; i < {state}; i++)\n            rate[i] = 0.0;\n    }}\n"
+                "    {{\n        int i;\n        for (i = {varying}; i < {state}; i++)\n            {short}[i] = 0.0;\n    }}\n"
             );
         }
         text.push_str("}\n");
         Some(Function {
-            about: comment_of(plain.about),
+            about: comment_of(method.sentence()),
             head: format!(
-                "void {name}_{}(const {name}_model *m, {time}const double y[], double {}[])",
-                plain.name, plain.results
+                "void {name}_{short}(const {name}_model *m, {time}const double y[], double {short}[])"
             ),
             before: function,
             body: text,
@@ -291,7 +203,7 @@ impl Methods<'_> {
         let name = self.name;
         let [before, call] = self.inner(Method::KineticEnergy, "kinetic_energy", "&energy");
         Some(Function {
-            about: comment_of("Kinetic energy [J]."),
+            about: comment_of(Method::KineticEnergy.sentence()),
             head: format!(
                 "double {name}_kinetic_energy(const {name}_model *m, double t, const double y[])"
             ),
@@ -309,7 +221,7 @@ impl Methods<'_> {
         let entries = self.lists.list(Method::MassMatrix).results.len();
         let [before, call] = self.inner(Method::MassMatrix, "mass_matrix", "upper");
         Some(Function {
-            about: comment_of("S, the mass matrix, as in S dv/dt = r_s + r_k: symmetric, by rows."),
+            about: comment_of("S, the mass matrix, symmetric, by rows: S dv/dt = r_s + r_k."),
             head: format!(
                 "void {name}_mass_matrix(const {name}_model *m, double t, const double y[], double matrix[])"
             ),

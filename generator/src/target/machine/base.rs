@@ -13,10 +13,6 @@ pub enum Base {
     Time,
     /// The state y.
     State,
-    /// Accelerations.
-    Accelerations,
-    /// Event functions.
-    EventFunctions,
     /// Parameters of the model.
     Parameters,
     /// Values that depend on parameters alone.
@@ -31,11 +27,9 @@ pub enum Base {
 
 impl Base {
     /// All regions, in the order of their pointers.
-    pub const ALL: [Base; 9] = [
+    pub const ALL: [Base; 7] = [
         Base::Time,
         Base::State,
-        Base::Accelerations,
-        Base::EventFunctions,
         Base::Parameters,
         Base::Derived,
         Base::Results,

@@ -107,8 +107,9 @@ fn place(input: Input) -> (Base, u32) {
     match input {
         Input::Time => (Base::Time, 0),
         Input::State(index) => (Base::State, index),
-        Input::Acceleration(index) => (Base::Accelerations, index),
-        Input::EventFunction(index) => (Base::EventFunctions, index),
+        Input::Acceleration(_) | Input::EventFunction(_) => {
+            unreachable!("a combined list computes them")
+        }
         Input::Parameter(index) => (Base::Parameters, index),
         Input::Derived(index) => (Base::Derived, index),
     }

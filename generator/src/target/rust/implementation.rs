@@ -4,8 +4,8 @@
 use super::expression::ident;
 use super::library::Library;
 use super::method::method_name;
-use super::results;
 use crate::equations::Equations;
+use crate::method::results::Results;
 use crate::method::table::{self, Specification};
 use crate::model::Rule;
 use crate::program::neighbours;
@@ -37,11 +37,6 @@ pub(crate) fn implementation(
             type With<U: Real> = Mechanism<U>;
             type Parameters = Parameters<T>;
             type State = [T; STATE];
-            type Outputs = [T; OUTPUTS];
-            type EventFunctions = [T; EVENT_FUNCTIONS];
-            type Kinks = [T; KINKS];
-            type Powers = [T; POWERS];
-            type Curves = [T; CURVES];
             const INFO: &'static Info = &INFO;
 
             #[inline(always)]
@@ -77,15 +72,6 @@ struct State {
     /// The arguments of a call of a method that takes the parts of a state.
     arguments: TokenStream,
 }
-
-/// The methods that come first in the implementation. Others follow in the order of the table of methods.
-const FIRST: [&str; 5] = [
-    "outputs",
-    "kinetic_energy",
-    "powers",
-    "momentum",
-    "external_wrench",
-];
 
 impl State {
     fn of(equations: &Equations) -> Self {
@@ -191,14 +177,9 @@ impl State {
 
     /// The methods of the trait that only split the state and call a method that takes its parts.
     fn at_states(&self, methods: &[Specification]) -> Vec<TokenStream> {
-        let place = |method: &&Specification| {
-            let place = FIRST.iter().position(|&first| first == method.name);
-            place.unwrap_or(FIRST.len())
-        };
         let same = |method: &&Specification| method.of_parts && !method.results.one_by_one();
-        let mut methods: Vec<&Specification> = methods.iter().filter(same).collect();
-        methods.sort_by_key(place);
-        methods.into_iter().map(|of| self.at_state(of)).collect()
+        let methods = methods.iter().filter(same);
+        methods.map(|of| self.at_state(of)).collect()
     }
 
     fn at_state(&self, method: &Specification) -> TokenStream {
@@ -207,21 +188,16 @@ impl State {
         } = self;
         let (name, at_parts) = (ident(method.name), ident(&method_name(method)));
         let inline = method.in_lanes.then(|| quote!(#[inline(always)]));
-        if method.name == "onsets" {
-            return quote! {
-                #inline
-                fn onsets(&self, t: T, y: &[T; STATE], onsets: &mut [T]) {
-                    #split
-                    onsets.copy_from_slice(&self.#at_parts(#arguments));
-                }
-            };
-        }
-        let returned = results::returned(method.results);
+        let results = quote!(self.#at_parts(#arguments));
+        let results = match method.results {
+            Results::Scalar => quote!([#results]),
+            _ => results,
+        };
         quote! {
             #inline
-            fn #name(&self, t: T, y: &[T; STATE]) -> #returned {
+            fn #name(&self, t: T, y: &[T; STATE], results: &mut [T]) {
                 #split
-                self.#at_parts(#arguments)
+                results.copy_from_slice(&#results);
             }
         }
     }

@@ -76,30 +76,23 @@ pub(crate) fn sizes(equations: &Equations) -> TokenStream {
             pub const #name: usize = #size;
         }
     };
-    let (auxiliaries, memory) = (equations.auxiliaries.len(), equations.memory.len());
     let laws = [
-        (auxiliaries > 0).then(|| size("Length of z.", "AUXILIARIES", auxiliaries)),
-        (memory > 0).then(|| size("Length of m.", "MEMORY", memory)),
-    ];
-    [
-        size("Length of q.", "COORDINATES", equations.coordinates.len()),
-        size("Length of v.", "VELOCITIES", equations.velocities.len()),
-        size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
-        size(
+        (
             "Number of event functions.",
             "EVENT_FUNCTIONS",
             equations.event_functions.len(),
         ),
-        size("Number of kinks.", "KINKS", equations.kinks.len()),
-        size("Number of powers.", "POWERS", equations.powers.len()),
-        size(
-            "Number of curves of the state.",
-            "CURVES",
-            equations.curves.len(),
-        ),
+        ("Length of z.", "AUXILIARIES", equations.auxiliaries.len()),
+        ("Length of m.", "MEMORY", equations.memory.len()),
+    ];
+    let laws = laws.into_iter().filter(|(_, _, length)| *length > 0);
+    [
+        size("Length of q.", "COORDINATES", equations.coordinates.len()),
+        size("Length of v.", "VELOCITIES", equations.velocities.len()),
+        size("Number of outputs.", "OUTPUTS", equations.outputs.len()),
     ]
     .into_iter()
-    .chain(laws.into_iter().flatten())
+    .chain(laws.map(|(text, name, length)| size(text, name, length)))
     .collect()
 }
 

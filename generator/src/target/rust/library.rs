@@ -27,9 +27,6 @@ impl Library {
             "STATE",
             "OUTPUTS",
             "EVENT_FUNCTIONS",
-            "KINKS",
-            "POWERS",
-            "CURVES",
             "INFO",
         ];
         let mut names = Names::with(&taken);

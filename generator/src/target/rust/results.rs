@@ -40,9 +40,6 @@ pub(crate) fn written_length(length: Length) -> TokenStream {
         Length::Memory => "MEMORY",
         Length::Outputs => "OUTPUTS",
         Length::EventFunctions => "EVENT_FUNCTIONS",
-        Length::Kinks => "KINKS",
-        Length::Powers => "POWERS",
-        Length::Curves => "CURVES",
         Length::Number(number) => {
             let number = Literal::usize_unsuffixed(number);
             return quote!(#number);
