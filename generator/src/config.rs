@@ -9,6 +9,7 @@ use crate::dynamics;
 use crate::law::ForceKind;
 use crate::model::{Coordinates, Dimension, Model};
 use crate::program::{self, Lists};
+use crate::read::{read, read_str};
 use crate::target::{c, rust, summary};
 use std::fmt;
 use std::io::{self, Read};
@@ -184,7 +185,7 @@ impl Config {
         text: &str,
         loader: &dyn Fn(&Path) -> io::Result<String>,
     ) -> Result<Generated, Diagnostics> {
-        let (model, read) = crate::read_str(name, text, loader)?;
+        let (model, read) = read_str(name, text, loader)?;
         Ok(self.generated(Path::new(name), model, read))
     }
 
@@ -223,7 +224,7 @@ impl Config {
         let mut problems = Vec::new();
         let mut all = Vec::new();
         for path in self.paths()? {
-            match crate::read(&path) {
+            match read(&path) {
                 Ok((model, read)) => {
                     read.iter().for_each(|path| rerun_if_changed(path));
                     all.push(self.generated(&path, model, read));

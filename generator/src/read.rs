@@ -56,6 +56,15 @@ pub fn read_str(
     Ok((resolved.model, loaded.paths))
 }
 
+/// Reads a model from text that includes no files.
+///
+/// # Errors
+/// Every problem found, with its place.
+pub fn check_str(text: &str) -> Result<(), Diagnostics> {
+    let nothing = |_: &Path| Err(io::ErrorKind::NotFound.into());
+    read_str("model.yaml", text, &nothing).map(drop)
+}
+
 /// Like [`read`], but without the Rust files of user forces, which may be missing: for writing these files.
 ///
 /// # Errors

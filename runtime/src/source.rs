@@ -120,6 +120,7 @@ files! {
     "response/answer.rs",
     "response/channel.rs",
     "response/clip.rs",
+    "response/exceedance.rs",
     "response/extremes.rs",
     "response/filter.rs",
     "response/hic.rs",

@@ -110,7 +110,7 @@ fn unjudged(limits: &Limits, all: &[Judged]) -> Option<String> {
 fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
     rust::skeleton(model, force).ok_or_else(|| {
         let all = model.forces.iter();
-        let users = all.filter(|f| matches!(ForceKind::of(&f), ForceKind::User(_)));
+        let users = all.filter(|f| matches!(ForceKind::of(f), ForceKind::User(_)));
         let names: Vec<&str> = users.map(|f| f.name.as_str()).collect();
         let help = match (nearest(force, &names), names.is_empty()) {
             (Some(near), _) => format!("did you mean \"{near}\"?"),

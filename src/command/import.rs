@@ -7,6 +7,7 @@ use crate::files;
 use crate::signature::{self, Kind};
 use bryant_generator::description::load::{read_file, shown};
 use bryant_generator::model_text::{ModelText, read_text};
+use bryant_generator::read;
 use bryant_generator::urdf::{Base, Options};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -89,7 +90,7 @@ impl Arguments {
             right_angles: self.right_angles,
             stops: self.stops,
             uncouple: self.uncouple,
-            repair_inertias: self.repair_inertias,
+            repair_inertias: self.repair_inertias.then_some(read::check_str),
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;
         // reads the model once, so that a body that no model can have is found here

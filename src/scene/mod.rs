@@ -1,5 +1,5 @@
 //! A motion as it is seen: bodies with their shapes, and what acts between them, at every time. Pictures, the page of a report and animations are made of this.
-//! What a law looks like is said by the law ([`Outputs::looks`](bryant_generator::model::law::Outputs::looks)).
+//! What a law looks like is said by the law ([`Visible::looks`](bryant_generator::model::law::Visible::looks)).
 
 mod bodies;
 mod bones;

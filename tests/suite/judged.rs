@@ -627,8 +627,11 @@ fn a_channel_that_failed_is_not_used() {
     );
 }
 
+/// Damages the text of a channel; `None` if it has nothing to damage.
+type Damages = fn(&str) -> Option<String>;
+
 /// What can be wrong with the file of a channel: how its text is made from a sound one; `None` stands for no file at all.
-const DAMAGE: [(&str, fn(&str) -> Option<String>); 5] = [
+const DAMAGE: [(&str, Damages); 5] = [
     ("is neither a number", |text| Some(format!("{text}x\n"))),
     ("there is no file .002 of this channel", |_| None),
     ("the file says that this is", |text| {

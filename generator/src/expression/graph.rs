@@ -697,6 +697,17 @@ impl std::fmt::Debug for Expr<'_> {
     }
 }
 
+/// `then` if a < b, otherwise `otherwise`. Both are always computed. If derivatives are wanted, neither may be infinite
+/// or NaN even where it is not chosen.
+pub fn choose<'g>(a: Expr<'g>, b: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
+    match (a.as_constant(), b.as_constant()) {
+        (Some(a), Some(b)) if a < b => then,
+        (Some(_), Some(_)) => otherwise,
+        _ if then.id() == otherwise.id() => then,
+        _ => a.graph().call(Function::Choose, &[a, b, then, otherwise]),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -778,16 +789,5 @@ mod tests {
         let (a, count) = ((x + y) * (y + x), graph.len());
         assert_eq!((x + y).squared().id(), a.id());
         assert_eq!(graph.len(), count);
-    }
-}
-
-/// `then` if a < b, otherwise `otherwise`. Both are always computed. If derivatives are wanted, neither may be infinite
-/// or NaN even where it is not chosen.
-pub fn choose<'g>(a: Expr<'g>, b: Expr<'g>, then: Expr<'g>, otherwise: Expr<'g>) -> Expr<'g> {
-    match (a.as_constant(), b.as_constant()) {
-        (Some(a), Some(b)) if a < b => then,
-        (Some(_), Some(_)) => otherwise,
-        _ if then.id() == otherwise.id() => then,
-        _ => a.graph().call(Function::Choose, &[a, b, then, otherwise]),
     }
 }

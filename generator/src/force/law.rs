@@ -50,7 +50,8 @@ pub struct Setting<'a, 'g> {
 
 /// Expressions of the quantities of a law.
 pub trait Measures<'g> {
-    /// The force on each point of the law \[N\], for [`Quantity::ForceOn`] and [`Quantity::ForceOnPoints`].
+    /// The force on each point of the law \[N\], for [`Quantity::ForceOn`](crate::model::Quantity::ForceOn) and
+    /// [`Quantity::ForceOnPoints`](crate::model::Quantity::ForceOnPoints).
     fn on(&self) -> Vec<Vec3<'g>> {
         Vec::new()
     }

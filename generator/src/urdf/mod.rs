@@ -31,8 +31,10 @@ pub use tree::Base;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use robot::{Joint, Kind, LeftOut, Limits, Robot, Why};
 use std::collections::BTreeMap;
-use std::path::Path;
 use tree::Forest;
+
+/// Tells what reading finds wrong with the text of a model.
+pub type CheckText = fn(&str) -> Result<(), Diagnostics>;
 
 /// The options of an import.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,8 +47,9 @@ pub struct Options {
     pub stops: Option<f64>,
     /// Whether joints that follow others (`<mimic>`) move independently.
     pub uncouple: bool,
-    /// Whether masses and tensors that no mechanism can have are replaced; each change is a note.
-    pub repair_inertias: bool,
+    /// Masses and tensors that no mechanism can have are replaced if this function is given, which reads the text of a
+    /// model ([`check_str`](crate::read::check_str)); each change is a note.
+    pub repair_inertias: Option<CheckText>,
 }
 
 /// The model of a robot.
@@ -83,7 +86,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
             Ok(forest) => forest,
             Err(problems) => {
                 let none = problems.iter().any(|p| p.repairs.is_empty());
-                if none || !options.repair_inertias {
+                if none || options.repair_inertias.is_none() {
                     return Err(refused(name, text, problems));
                 }
                 for repair in problems.iter().flat_map(|p| &p.repairs) {
@@ -98,9 +101,9 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Imported, Dia
             notes: notes(&robot, &forest, options, &changes),
             origins,
         };
-        let more = match options.repair_inertias {
-            true => without_inertia(&mut robot, &imported),
-            false => Vec::new(),
+        let more = match options.repair_inertias.map(|check| check(&imported.yaml)) {
+            Some(Err(found)) => without_inertia(&mut robot, &imported, &found),
+            Some(Ok(())) | None => Vec::new(),
         };
         if more.is_empty() {
             return Ok(imported);
@@ -124,11 +127,7 @@ fn refused(name: &str, text: &str, problems: Vec<tree::Problem>) -> Diagnostics 
 }
 
 /// Gives moments to the links that the model refuses because they turn without inertia.
-fn without_inertia(robot: &mut Robot, imported: &Imported) -> Vec<String> {
-    let nothing = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-    let Err(found) = crate::read_str("model.yaml", &imported.yaml, &nothing) else {
-        return Vec::new();
-    };
+fn without_inertia(robot: &mut Robot, imported: &Imported, found: &Diagnostics) -> Vec<String> {
     let places = found
         .problems
         .iter()

@@ -24,7 +24,7 @@ pub fn notes(model: &Model, job: &Job, recording: &Recording) -> Vec<String> {
     let mut asked = model.clone();
     asked.outputs.clear();
     for (force, one) in model.forces.iter().enumerate() {
-        let ForceKind::Belt(belt) = ForceKind::of(&one) else {
+        let ForceKind::Belt(belt) = ForceKind::of(one) else {
             continue;
         };
         for (part, ring) in belt.rings.iter().enumerate() {

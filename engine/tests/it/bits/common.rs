@@ -11,6 +11,9 @@ use bryant_runtime::{
 use std::path::Path;
 use std::sync::Arc;
 
+/// Writes results of a model.
+pub type Writes<'a, T> = dyn Fn(&dyn Dynamics<T>, &mut [T]) + 'a;
+
 /// The bits of a scalar. All NaN have the same bits.
 pub trait Bits {
     fn bits(&self) -> Vec<u64>;
@@ -250,7 +253,7 @@ fn compare_at<T: Real, O: Of<T>>(
     expected.normalize(&mut y);
     found.normalize(&mut other);
     same::<T, O>(name, "normalized", &y, &other);
-    let compare = |what: &str, length: usize, method: &dyn Fn(&dyn Dynamics<T>, &mut [T])| {
+    let compare = |what: &str, length: usize, method: &Writes<'_, T>| {
         let mut both = [(); 2].map(|()| vec![T::from_f64(0.25); length]);
         method(expected, &mut both[0]);
         method(found, &mut both[1]);

@@ -2,6 +2,7 @@
 //! contacts, stops and belts act, with and without slopes. Rows of parameters have the same bits in lanes of every width. Outputs of which only
 //! some are wanted have the same bits.
 
+use super::common::Writes;
 use bryant_engine::Engine;
 use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
@@ -85,7 +86,7 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
         let reach = [0.0, 1e-3, 0.03, 0.2][round % 4];
         let y = state::<T>(&code, lanes, reach, weyl);
         let t = (lanes.of)(&[(); MOST_LANES].map(|()| 0.08 * (1.0 + weyl.next())));
-        let compare = |what: &str, count: usize, run: &dyn Fn(&dyn Dynamics<T>, &mut [T])| {
+        let compare = |what: &str, count: usize, run: &Writes<'_, T>| {
             let [mut found, mut wanted] = [vec![nought; count], vec![nought; count]];
             run(&code, &mut found);
             run(&interpreted, &mut wanted);

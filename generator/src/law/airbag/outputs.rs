@@ -100,9 +100,7 @@ impl<'g> Measures<'g> for AirbagMeasures<'g> {
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(what) = asked.get::<AirbagQuantity>() else {
-            return None;
-        };
+        let what = asked.get::<AirbagQuantity>()?;
         Some(Value::Scalar(match what {
             AirbagQuantity::Pressure => self.pressure,
             AirbagQuantity::Temperature => self.temperature,

@@ -193,9 +193,7 @@ impl<'g> Measures<'g> for BeltMeasures<'g> {
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(BeltOutput { part, what }) = asked.get() else {
-            return None;
-        };
+        let BeltOutput { part, what } = asked.get()?;
         Some(Value::Scalar(match what {
             BeltQuantity::Force => self.segments[*part].tension,
             BeltQuantity::Length => self.segments[*part].length,

@@ -122,7 +122,6 @@ impl Outputs for Bushing {
                 }
             }
         };
-        let what = what;
         Some((Quantity::of_force(force, what), unit))
     }
 }
@@ -153,9 +152,7 @@ impl<'g> Measures<'g> for BushingMeasures<'g> {
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(what) = asked.get::<BushingQuantity>() else {
-            return None;
-        };
+        let what = asked.get::<BushingQuantity>()?;
         let on = |second: bool, vector: Vec3<'g>| if second { -vector } else { vector };
         Some(match *what {
             BushingQuantity::Force(second, projection) => {

@@ -105,9 +105,7 @@ impl<'g> Measures<'g> for ContactMeasures<'g> {
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(what) = asked.get::<ContactQuantity>() else {
-            return None;
-        };
+        let what = asked.get::<ContactQuantity>()?;
         Some(Value::Scalar(match what {
             ContactQuantity::Force => self.force,
             ContactQuantity::Normal => self.normal,

@@ -162,9 +162,7 @@ pub type AboutRotations<'g> = [Option<JointMeasures<'g>>; 5];
 
 impl<'g> Measures<'g> for AboutRotations<'g> {
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(JointOutput { about, what }) = asked.get() else {
-            return None;
-        };
+        let JointOutput { about, what } = asked.get()?;
         let measures = self[*about]?;
         Some(Value::Scalar(match what {
             JointQuantity::Torque => measures.torque,

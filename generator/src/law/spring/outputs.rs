@@ -87,9 +87,7 @@ impl<'g> Measures<'g> for SpringMeasures<'g> {
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(what) = asked.get::<SpringQuantity>() else {
-            return None;
-        };
+        let what = asked.get::<SpringQuantity>()?;
         Some(Value::Scalar(match what {
             SpringQuantity::Force => self.force,
             SpringQuantity::Length => self.length,

@@ -170,7 +170,6 @@ fn of_user(
     };
     resolver.without(at, &["at"], "a user force");
     let (what, unit) = user_quantity(resolver, written, user, what, index, at)?;
-    let what = what;
     Some((Quantity::of_force(force, what), unit))
 }
 
@@ -315,9 +314,7 @@ pub struct LineMeasures<'g> {
 
 impl<'g> Measures<'g> for UserMeasures<'g> {
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {
-        let Some(what) = asked.get::<UserQuantity>() else {
-            return None;
-        };
+        let what = asked.get::<UserQuantity>()?;
         let joint = |joint: usize, about: usize| self.joints.get(joint)?.get(about).copied()?;
         let scalar = match *what {
             UserQuantity::Force(i, projection) => {

@@ -15,12 +15,15 @@ use crate::model::law::Law;
 use crate::model::resolve::law::Header;
 use crate::model::{Bristle, Force, Friction, Number};
 
+/// Checks a law as written. `None`, with a report, if nothing useful is left.
+pub(crate) type Check<'w> = dyn Fn(&mut Resolver<'_>, At<'_>) -> Option<Box<dyn Law>> + 'w;
+
 /// Enters a force of the law with this key: its checked form, or the fact that it is switched off.
 pub(crate) fn force(
     resolver: &mut Resolver<'_>,
     key: &'static str,
     header: &Header<'_>,
-    check: &dyn Fn(&mut Resolver<'_>, At<'_>) -> Option<Box<dyn Law>>,
+    check: &Check<'_>,
     at: At<'_>,
 ) {
     let mut laws = resolver.kinds.language.laws.iter();

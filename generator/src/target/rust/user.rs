@@ -105,7 +105,7 @@ pub(crate) fn pasted(source: &UserSource) -> String {
 /// A Rust file for the user to begin with: the function of a user force that uses all its arguments, and returns zeros.
 /// `None` if there is no such force.
 pub fn skeleton(model: &Model, force: &str) -> Option<String> {
-    let user = model.forces.iter().find_map(|f| match ForceKind::of(&f) {
+    let user = model.forces.iter().find_map(|f| match ForceKind::of(f) {
         ForceKind::User(user) if f.name == force => Some(user),
         _ => None,
     })?;

@@ -6,7 +6,7 @@ use super::{
 };
 
 const REPAIR: Options = Options {
-    repair_inertias: true,
+    repair_inertias: Some(bryant_generator::read::check_str),
     base: super::Base::Fixed,
     right_angles: false,
     stops: None,
