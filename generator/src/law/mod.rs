@@ -5,7 +5,7 @@
 //! | `keys.rs` | the keys of the YAML (`Keys`), and how they change in a mirror image |
 //! | `check.rs` | the checked form, and how it is made from the keys |
 //! | `terms.rs` | its numbers and terms ([`Terms`](crate::model::law::Terms)): the permitted values, and which parts may be left out |
-//! | `force.rs` | its equations ([`Equations`](crate::force::Equations)): forces and moments on bodies, events, states, powers |
+//! | `force.rs` | its equations ([`Equations`]): forces and moments on bodies, events, states, powers |
 //! | `outputs.rs` | its outputs, and its visible parts (`Outputs`, [`Measures`](crate::force::Measures), [`Visible`](crate::model::law::Visible)) |
 //!
 //! To add a law, add a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures

@@ -6,9 +6,9 @@ use serde::Serialize;
 /// Identifies an element: index of the system, and of the element in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct ElementId {
-    /// Index into [`Model::systems`].
+    /// Index into [`Model::systems`](super::Model::systems).
     pub system: usize,
-    /// Index into [`System::elements`].
+    /// Index into [`System::elements`](super::System::elements).
     pub element: usize,
 }
 
@@ -19,7 +19,7 @@ pub enum Body {
     Frame,
     /// An element.
     Element(ElementId),
-    /// A vehicle: index into [`Model::vehicles`].
+    /// A vehicle: index into [`Model::vehicles`](super::Model::vehicles).
     Vehicle(usize),
 }
 

@@ -43,7 +43,7 @@ pub enum Interpolate {
     /// Straight lines.
     #[default]
     Linear,
-    /// Cubics with a common slope at each point ([`Curve::tangent`]), monotone wherever the points are.
+    /// Cubics with a common slope at each point ([`Curve::tangent`](super::Curve::tangent)), monotone wherever the points are.
     Cubic,
 }
 
@@ -61,7 +61,7 @@ pub enum Extrapolate {
 /// A scaled curve: `times · curve(argument / stretch)`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScaledCurve {
-    /// Index into [`Model::curves`].
+    /// Index into [`Model::curves`](super::Model::curves).
     pub curve: usize,
     /// Factor on the ordinate.
     pub times: Number,

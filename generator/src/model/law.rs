@@ -185,7 +185,7 @@ macro_rules! boxed {
                 (self as &dyn Any).downcast_ref()
             }
 
-            /// Like [`get`](Self::get), mutable.
+            /// Like `get`, mutable.
             pub fn get_mut<T: Any>(&mut self) -> Option<&mut T> {
                 (self as &mut dyn Any).downcast_mut()
             }

@@ -44,7 +44,7 @@ pub struct Model {
     #[serde(skip)]
     pub units: Units,
     /// SHA-256, in lower-case hexadecimal, of all of the above that affects a motion or an output. It depends on the
-    /// meaning of the text, not on the way in which it is written. See [`Model::sha256`].
+    /// meaning of the text, not on the way in which it is written. See [`Model::sha256`](super::Model::sha256).
     #[serde(skip)]
     pub digest: String,
 }

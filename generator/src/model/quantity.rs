@@ -65,7 +65,7 @@ pub enum Quantity {
         /// The component.
         projection: Projection,
     },
-    /// Rotation of an element or a vehicle; in the plane the component is always [`Component::Y`].
+    /// Rotation of an element or a vehicle; in the plane the component is always [`Component::Y`](super::Component::Y).
     Rotation {
         /// The body; never the absolute frame.
         body: Body,
@@ -90,7 +90,7 @@ pub enum Quantity {
     },
     /// The force of a law between two bodies, on one of them.
     ForceOn {
-        /// Index into [`Model::forces`].
+        /// Index into [`Model::forces`](super::Model::forces).
         force: usize,
         /// True for the force on the second body, which is opposite to that on the first. The first body is that of a
         /// contact's `ellipsoid`, or of the end `from`.
@@ -110,7 +110,7 @@ pub enum Quantity {
     /// The force on one body by a belt that runs through rings, or by an airbag: the sum over all points of the law on
     /// this body.
     ForceOnPoints {
-        /// Index into [`Model::forces`].
+        /// Index into [`Model::forces`](super::Model::forces).
         force: usize,
         /// The points on that body. The points of a belt are numbered from its end `from`; those of an airbag are its
         /// own body, then the bodies that it meets.
@@ -120,21 +120,21 @@ pub enum Quantity {
     },
     /// A quantity of a law.
     OfForce {
-        /// Index into [`Model::forces`].
+        /// Index into [`Model::forces`](super::Model::forces).
         force: usize,
         /// The quantity.
         what: Box<dyn OfLaw>,
     },
     /// A quantity of a switch.
     Switch {
-        /// Index into [`Model::switches`].
+        /// Index into [`Model::switches`](super::Model::switches).
         switch: usize,
         /// The quantity.
         what: SwitchQuantity,
     },
     /// A quantity of a whole system.
     System {
-        /// Index into [`Model::systems`].
+        /// Index into [`Model::systems`](super::Model::systems).
         system: usize,
         /// The quantity.
         what: SystemQuantity,

@@ -45,13 +45,13 @@ pub struct System {
 pub enum Reference {
     /// Its coordinates are unknowns of the equations of motion.
     Free,
-    /// It stays at [`System::position`].
+    /// It stays at [`System::position`](super::System::position).
     Fixed,
-    /// It moves as prescribed, from [`System::position`] with [`System::velocity`].
+    /// It moves as prescribed, from [`System::position`](super::System::position) with [`System::velocity`](super::System::velocity).
     Prescribed(Translation),
-    /// It moves with a point of a vehicle, which is at [`System::position`] at t = 0.
+    /// It moves with a point of a vehicle, which is at [`System::position`](super::System::position) at t = 0.
     Riding {
-        /// Index into [`Model::vehicles`].
+        /// Index into [`Model::vehicles`](super::Model::vehicles).
         vehicle: usize,
         /// The point in the vehicle's local frame \[m\].
         at: [Number; 3],
