@@ -24,7 +24,7 @@ impl Answer {
             Response::TimeOfPeak | Response::TimeOfMinimum => duration,
             Response::Integral => largest * duration,
             Response::Hic { .. } | Response::Olc => 0.0,
-            Response::Exceedance { limit } => largest / limit.at(0.0),
+            Response::Exceedance { limit } => largest / limit.corners()[0][1],
             _ => largest,
         };
         Answer {
