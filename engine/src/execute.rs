@@ -28,7 +28,8 @@ pub trait Execute<T: Real> {
     /// [`Method::Derived`](bryant_generator::program::Method::Derived), which computes the derived values.
     fn set_constants(&mut self, parameters: &[T], derived: &[T]);
     /// Evaluates methods and returns true. `results` takes the results of the methods, one after the other, and is at
-    /// least as long. Returns false and writes nothing if there are too many sets of several methods; never for one method.
+    /// least as long. Returns false and writes nothing if there are too many sets of several methods; never for one
+    /// method.
     /// Nothing is allocated but when a set is used for the first time.
     fn run(&self, methods: Methods, given: Given<'_, T>, results: &mut [T]) -> bool;
     /// Evaluates the outputs with these indices and returns true; returns false and writes nothing if there is no

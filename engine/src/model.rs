@@ -233,12 +233,12 @@ struct WithoutJacobian<M>(M);
 
 impl<T: Real, E: Execute<T>> Machine<T, E> {
     fn new(shared: Arc<Shared>, execute: E) -> Self {
-        let longest: usize = Method::ALL.map(|method| shared.length(method)).iter().sum();
+        let room: usize = Method::ALL.map(|method| shared.length(method)).iter().sum();
         let defaults = shared.info.parameters.iter();
         let mut machine = Machine {
             parameters: defaults.map(|p| T::from_f64(p.default)).collect(),
             derived: vec![T::from_f64(0.0); shared.lists.derived],
-            results: RefCell::new(vec![T::from_f64(0.0); longest]),
+            results: RefCell::new(vec![T::from_f64(0.0); room]),
             wanted: None,
             jacobian: RefCell::new(None),
             shared,

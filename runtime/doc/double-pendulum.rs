@@ -319,7 +319,7 @@ impl<T: Real> Mechanism<T> {
         writer.put(1, lower_omega);
     }
 
-    /// What parameters must keep.
+    /// The values that the conditions on parameters restrict.
     pub fn conditions(&self) -> [T; 1] {
         [self.parameters.brake]
     }
@@ -356,7 +356,7 @@ impl<T: Real> Mechanism<T> {
         kinetic_energy
     }
 
-    /// Power of each effect, in W: together the rate of the kinetic energy.
+    /// The power of each effect, in W, in the order of the list of their names. Their sum is the rate of the kinetic energy.
     pub fn powers_at(&self, _t: T, q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; 2] {
         let num = T::from_f64;
         let &[upper_phi, lower_phi] = q;
@@ -383,7 +383,7 @@ impl<T: Real> Mechanism<T> {
         [power_field_gravity, power_joint_arm_lower_damping]
     }
 
-    /// What the scene asks to see.
+    /// The outputs, in the order of the list of their names.
     #[inline(always)]
     pub fn outputs_at(
         &self,

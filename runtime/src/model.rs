@@ -121,15 +121,28 @@ pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
     }
 }
 
-/// The methods of [`Model`] for its sections. A model that has no such results need not have the method.
+/// The methods of [`Model`] for its sections. A model that has no such results need not have the method. Where
+/// [`Info`] lists results by name, a model without the method does not compile.
 macro_rules! methods {
     ($($(#[$doc:meta])* $section:ident $name:ident $form:ident |$info:ident| $length:expr;)*) => {
-        $(method! { $(#[$doc])* $form $name })*
+        $(method! { $(#[$doc])* $form $section $name })*
     };
 }
 macro_rules! method {
-    ($(#[$doc:meta])* state $name:ident) => {};
-    ($(#[$doc:meta])* $form:ident $name:ident) => {
+    ($(#[$doc:meta])* state $section:ident $name:ident) => {};
+    ($(#[$doc:meta])* many $section:ident $name:ident) => {
+        $(#[$doc])*
+        #[inline(always)]
+        fn $name(&self, _t: T, _y: &Self::State, _results: &mut [T]) {
+            const {
+                assert!(
+                    Self::INFO.length(crate::Section::$section) == 0,
+                    concat!("the model lists results of `", stringify!($name), "`, but has no such method")
+                );
+            }
+        }
+    };
+    ($(#[$doc:meta])* $form:ident $section:ident $name:ident) => {
         $(#[$doc])*
         #[inline(always)]
         fn $name(&self, _t: T, _y: &Self::State, results: &mut [T]) {

@@ -70,7 +70,7 @@ impl Row {
         let (value, detail) = match (limit, duration) {
             (Some(limit), Some(duration)) => {
                 let held = match duration > 0.0 {
-                    true => format!("exceeded for {:.1} ms in all", 1e3 * duration),
+                    true => format!("exceeded for {:.1} ms in total", 1e3 * duration),
                     false => "its peak".to_owned(),
                 };
                 let both = [held, detail];

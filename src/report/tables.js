@@ -24,8 +24,10 @@ function criteria() {
   return made;
 }
 
+// A limit that falls with the duration of a load is computed for its duration, all others are those of the regulation.
 function limit(one) {
-  return one.limit === null ? "–" : limitText(one.limit);
+  if (one.limit === null) return "–";
+  return one.duration === null ? limitText(one.limit) : readable(one.limit);
 }
 
 function met(one) {

@@ -156,7 +156,7 @@ fn limits_fall_with_the_duration_of_a_force() {
             near(&kept["limit"], newton);
             near(&kept["duration"], length);
             assert_eq!(kept["met"], true, "{kept}");
-            let said = format!("exceeded for {:.1} ms in all", 1e3 * length);
+            let said = format!("exceeded for {:.1} ms in total", 1e3 * length);
             assert!(kept["detail"].as_str().unwrap().contains(&said), "{kept}");
             let higher = row(1.002 * size, length, "UN R94");
             near(&higher["value"], 1.002 * newton);

@@ -87,6 +87,8 @@ fn a_run_that_is_interrupted_keeps_its_samples() {
         "1 us",
         "--duration",
         "1000 s",
+        "--every",
+        "10 ms",
         "--max-steps",
         "1000000000000",
         "--time-limit",

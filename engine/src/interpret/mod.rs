@@ -9,8 +9,8 @@
 //! | values get places in a frame; a place is reused after the last use of its value | `encode` |
 //! | one loop executes each run | `run` |
 //!
-//! All methods share one frame of values: constants, parameters, values derived from them, time, state, and room for the results of operations. The operations, their order and their rounding are those of
-//! the list.
+//! All methods share one frame of values: constants, parameters, values derived from them, time, state, and room for the
+//! results of operations. The operations, their order and their rounding are those of the list.
 //!
 //! Places have sixteen bits, so that the code fits into the first-level cache of a processor. A plain loop over
 //! operations (`plain`) is used for models that need more places, and for scalars with costly operations: duals and

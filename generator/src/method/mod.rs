@@ -65,38 +65,38 @@ methods! {
         ;
     CoordinateRates "coordinate_rates" "The rate of q, from q and v alone.";
     EventFunctions "event_functions"
-        "Functions whose change of sign ends a step, after which the memory is renewed.";
-    Kinks "kinks" "Functions whose change of sign is where a force law is not smooth.";
+        "The event functions, in the order of the list of their names. Where one changes its sign, a step ends and the memory is renewed.";
+    Kinks "kinks" "The kinks, in the order of the list of their names. Where one changes its sign, a force law is not smooth.";
     Onsets "onsets"
-        "When laws that do not act begin to, and how far the corners of curves are: the gap of each, then the speed at which each closes at most.";
-    Renewed "renewed" "The entries of the state that are renewed after an accepted step."
+        "The gaps of all onsets, in the order of the list of their names, then the largest speed at which each gap can close.";
+    Renewed "renewed" "The entries of the state that change after an accepted step."
         /// [`Lists::renewed`](crate::program::Lists::renewed) has their places.
         ;
     Curves "curves"
-        "What the curves of the state are evaluated at, the bearings of bent joints and the directions of contacts.";
+        "The arguments of the curves that depend on the state, and other values that a run watches, in the order of the list of their names.";
     Pivots "pivots"
-        "Pivots of the elimination that may vanish, as shares of what stands in their place before.";
-    Conditions "conditions" "What parameters must keep."
+        "The pivots of the elimination that may vanish, each divided by its diagonal entry of S.";
+    Conditions "conditions" "The values that the conditions on parameters restrict."
         /// Each has its rule in [`Lists::rules`](crate::program::Lists::rules). Starts from parameters and the values
         /// derived from them.
         ;
     KinkRates "kink_rates"
-        "By what time is multiplied in the curves of time that parameters stretch."
+        "The factors of time in the arguments of curves that parameters stretch."
         /// Those in [`Lists::stretched`](crate::program::Lists::stretched). Starts from parameters and the values
         /// derived from them.
         ;
     KineticEnergy "kinetic_energy" "The kinetic energy T of all elements, in J.";
     Powers "powers"
-        "Power of each effect, in W: together the rate of the kinetic energy.";
+        "The power of each effect, in W, in the order of the list of their names. Their sum is the rate of the kinetic energy.";
     Momentum "momentum"
-        "Linear momentum, in N s, and angular momentum about the origin, in N m s, of what is free, in absolute axes."
+        "The linear momentum, in N s, and the angular momentum about the origin, in N m s, of all free systems, in absolute axes."
         /// Six results; none if no system is free.
         ;
     ExternalWrench "external_wrench"
-        "Force, in N, and moment about the origin, in N m, on what is free: the rate of its momentum."
+        "The external force, in N, and its moment about the origin, in N m, on all free systems: the rate of their momentum."
         /// Six results; none if no system is free.
         ;
-    Outputs "outputs" "What the scene asks to see.";
+    Outputs "outputs" "The outputs, in the order of the list of their names.";
     MassMatrix "mass_matrix" "S, the mass matrix: S dv/dt = r_s + r_k."
         /// The upper triangle, by rows; only if the option `matrices` is set.
         ;

@@ -50,7 +50,8 @@ pub struct Source<'a> {
     pub matrices: bool,
 }
 
-/// All methods but [`new`], [`motion`], the sections and the outputs, which follow. An entry is `None` for a model that has no such method.
+/// All methods but [`new`], [`motion`], the sections and the outputs, which follow. An entry is `None` for a model that
+/// has no such method.
 const TABLE: [fn(&Source<'_>) -> Option<Specification>; 17] = [
     initial_conditions,
     initial_auxiliaries,

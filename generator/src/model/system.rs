@@ -47,7 +47,8 @@ pub enum Reference {
     Free,
     /// It stays at [`System::position`](super::System::position).
     Fixed,
-    /// It moves as prescribed, from [`System::position`](super::System::position) with [`System::velocity`](super::System::velocity).
+    /// It moves as prescribed, from [`System::position`](super::System::position) with
+    /// [`System::velocity`](super::System::velocity).
     Prescribed(Translation),
     /// It moves with a point of a vehicle, which is at [`System::position`](super::System::position) at t = 0.
     Riding {

@@ -218,25 +218,25 @@ pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// A section of the loop that is compiled as a function of its own, because it is long and called from several places,
+/// A piece of work of the loop that is compiled as a function of its own, because it is long and called from several places,
 /// or rarely.
 pub(super) trait Work<T: Several> {
-    /// The result of the section.
+    /// The result.
     type Output;
-    /// Runs the section. Must be `#[inline(always)]`.
+    /// Does the work. Must be `#[inline(always)]`.
     fn run(self, run: &mut Run<'_, T>) -> Self::Output;
 }
 
 struct Apart<'a, 'b, T: Several, S> {
     run: &'a mut Run<'b, T>,
-    section: S,
+    work: S,
 }
 
 impl<T: Several, S: Work<T>> Task for Apart<'_, '_, T, S> {
     type Output = S::Output;
     #[inline(always)]
     fn run(self) -> S::Output {
-        self.section.run(self.run)
+        self.work.run(self.run)
     }
 }
 
@@ -252,10 +252,10 @@ impl<T: Several> Work<T> for Start<T::Mask> {
 }
 
 impl<'a, T: Several> Run<'a, T> {
-    /// Runs a section as a function of its own.
+    /// Does a piece of work as a function of its own.
     #[inline(always)]
-    pub(super) fn apart<S: Work<T>>(&mut self, section: S) -> S::Output {
-        T::dispatch_apart(Apart { run: self, section })
+    pub(super) fn apart<S: Work<T>>(&mut self, work: S) -> S::Output {
+        T::dispatch_apart(Apart { run: self, work })
     }
 
     fn new(

@@ -66,7 +66,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The kinds of joints and the force laws that the language knows, and how each is read. Whoever reads a model hands them in.
+/// The kinds of joints and the force laws that the language knows, and how each is read. Whoever reads a model hands
+/// them in.
 pub struct Kinds {
     /// The kinds as written.
     pub language: &'static Language,
