@@ -78,7 +78,7 @@ fn tree(model: &Model) -> Option<String> {
     let [force] = &model.forces[..] else {
         return None;
     };
-    let ForceKind::Field(field) = &force.kind else {
+    let ForceKind::Field(field) = ForceKind::of(force) else {
         return None;
     };
     let mut gravity = [0.0; 3];
