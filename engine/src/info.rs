@@ -52,6 +52,7 @@ fn leaked(facts: &Facts) -> Info {
         default: parameter.default,
         min: parameter.min,
         max: parameter.max,
+        input: parameter.input,
     });
     Info {
         name: word(&facts.name),

@@ -63,6 +63,8 @@ pub enum Reason {
 pub enum Refusal {
     /// A parameter is infinite or not a number: its index in [`Info::parameters`], and its value.
     NotFinite(usize, f64),
+    /// An input is outside of its limits: its index in [`Info::parameters`], and its value.
+    OutOfLimits(usize, f64),
     /// The parameters violate a condition, an index in [`Info::conditions`].
     Condition(usize),
 }
@@ -231,6 +233,13 @@ impl Failure {
             Reason::Refused(Refusal::NotFinite(index, value)) => {
                 let name = info.parameters.get(index).map_or("?", |p| p.name);
                 write!(f, "the parameter \"{name}\" is {value}, but must be finite")
+            }
+            Reason::Refused(Refusal::OutOfLimits(index, value)) => {
+                let name = info.parameters.get(index).map_or("?", |p| p.name);
+                write!(
+                    f,
+                    "the input \"{name}\" is {value}, which is out of its limits"
+                )
             }
             Reason::Refused(Refusal::Condition(index)) => {
                 let condition = info.conditions.get(index).copied().unwrap_or("?");

@@ -502,6 +502,16 @@ pub struct ParameterInfo {
     pub min: f64,
     /// Largest value allowed (SI), +∞ where unbounded.
     pub max: f64,
+    /// True for an input: it may change during a run.
+    pub input: bool,
+}
+
+impl Info {
+    /// The inputs, as indices into [`Info::parameters`].
+    pub fn inputs(&self) -> impl Iterator<Item = usize> {
+        let parameters = self.parameters.iter().enumerate();
+        parameters.filter_map(|(index, of)| of.input.then_some(index))
+    }
 }
 
 #[cfg(test)]

@@ -147,6 +147,7 @@ impl Oscillator {
             default: 1.0,
             min: 0.0,
             max: 100.0,
+            input: false,
         }],
         duration: 2.0,
         ..BARE

@@ -21,6 +21,7 @@ mod prepare;
 mod progress;
 mod response;
 mod run;
+mod schema;
 mod settle;
 mod stability;
 mod sweep;
@@ -93,6 +94,7 @@ enum Command {
     Import(import::Arguments),
     Settle(settle::Arguments),
     Criteria(criteria::Arguments),
+    Schema(schema::Arguments),
     Compare(compare::Arguments),
     Sweep(sweep::Arguments),
     Merge(merge::Arguments),
@@ -186,6 +188,7 @@ pub fn main() -> ExitCode {
         Command::Effects(arguments) => arguments.execute(&mut terminal),
         Command::Equations(arguments) => arguments.execute(&mut terminal),
         Command::Models(arguments) => arguments.execute(&mut terminal),
+        Command::Schema(arguments) => arguments.execute(&mut terminal),
         Command::Settle(arguments) => arguments.execute(&mut terminal),
         Command::Stability(arguments) => arguments.execute(&mut terminal),
         Command::Sweep(arguments) => arguments.execute(&mut terminal),
@@ -282,6 +285,7 @@ mod tests {
                     "compare",
                     "criteria",
                     "human",
+                    "schema",
                 ]
                 .contains(&words[1].as_str());
                 let own = words.iter().any(|word| word.contains(".yaml"));

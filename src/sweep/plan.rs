@@ -183,7 +183,7 @@ mod tests {
             let mut run = run(Some(1e-3), None, Precision::Double);
             run.step = run.step.map(|step| FixedSteps { method, ..step });
             let pace = pace(&run, 1.0).unwrap();
-            assert_eq!(pace.method().formula().name(), method.name());
+            assert_eq!(pace.method().formula().name(), method.word());
         }
     }
 

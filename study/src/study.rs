@@ -3,6 +3,7 @@
 use crate::distribution::Distribution;
 use crate::facts::ModelFacts;
 use crate::response::Response;
+use bryant_generator::description::shape::words;
 use bryant_generator::model::units::Unit;
 use bryant_runtime::response::filter::{Class, Filter};
 use serde::Serialize;
@@ -224,19 +225,18 @@ pub enum Method {
     Dopri5,
 }
 
+words! {
+    impl Method {
+        Heun = "heun",
+        Rk4 = "rk4",
+        Merson = "merson",
+        Dopri5 = "dopri5",
+    }
+}
+
 impl Method {
     /// All methods, by order.
     pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
-
-    /// Its name in files.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Method::Heun => "heun",
-            Method::Rk4 => "rk4",
-            Method::Merson => "merson",
-            Method::Dopri5 => "dopri5",
-        }
-    }
 }
 
 /// The precision of the numbers.
@@ -248,6 +248,13 @@ pub enum Precision {
     Double,
     /// Single precision, 24 bits; twice as many numbers fit side by side.
     Single,
+}
+
+words! {
+    impl Precision {
+        Double = "double",
+        Single = "single",
+    }
 }
 
 impl Precision {
@@ -292,4 +299,11 @@ pub enum TableKind {
     Parquet,
     /// Comma-separated values.
     Csv,
+}
+
+words! {
+    impl TableKind {
+        Parquet = "parquet",
+        Csv = "csv",
+    }
 }

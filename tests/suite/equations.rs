@@ -177,6 +177,7 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
                 min: None,
                 max: None,
                 unit: "N m".into(),
+                input: false,
             });
         }
         let mut act = |on: usize, moment: [Number; 3]| {

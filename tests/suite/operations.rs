@@ -166,6 +166,7 @@ fn with_adjustable_masses(mut model: Model) -> Model {
                 min: None,
                 max: None,
                 unit: "kg".into(),
+                input: false,
             });
         }
     }

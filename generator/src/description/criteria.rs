@@ -1,6 +1,12 @@
 //! Injury criteria as written: by which regulation, for which dummy, and where what is.
 
-use super::shape::{record, words};
+use super::measure::{Acceleration, Effort, Force, Length, Rate, Torque, Unit};
+use super::place::At;
+use super::schema::Schema;
+use super::shape::{Misfit, Problems, Shape, record, words};
+use serde_yaml::Value;
+use std::marker::PhantomData;
+use std::ops::Deref;
 
 words! {
     /// Whose coefficients filters have.
@@ -12,21 +18,52 @@ words! {
     }
 }
 
-/// The places where a dummy measures, as keys: each has the name of an output, or, of a head and a chest, of an element.
+/// The name of what is measured in `U`.
+#[derive(Clone, Debug)]
+pub struct NameIn<U>(String, PhantomData<U>);
+
+impl<U> Deref for NameIn<U> {
+    type Target = str;
+    fn deref(&self) -> &str {
+        &self.0
+    }
+}
+
+impl<U: Unit> Shape for NameIn<U> {
+    fn unit() -> String {
+        U::UNIT.to_owned()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        String::schema(to)
+    }
+
+    fn check(at: At<'_>, problems: &Problems) {
+        String::check(at, problems);
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        Ok(NameIn(String::read(value)?, PhantomData))
+    }
+}
+
+/// The places where a dummy measures, as keys with units: each has the name of an output, or, of a head and a chest, of
+/// an element.
 macro_rules! places {
-    ($( $(#[$meta:meta])* $place:ident, )*) => {
+    ($( $(#[doc = $meaning:literal])* $place:ident: $unit:ty, )*) => {
         record! {
             /// By what a run is judged.
             Criteria as "a set of criteria" {
-                /// The regulation.
+                /// the regulation; `bryant criteria --list` has those that are known
                 standard: String,
-                /// The dummy.
+                /// the dummy
                 dummy: String,
-                /// Whose coefficients the filters have.
-                filter_standard: Option<FilterStandard>,
-                /// Test object and position of the occupant, the first two characters of the codes of its outputs.
-                occupant: Option<String>,
-                $( $(#[$meta])* $place: Option<String>, )*
+                /// whose coefficients the [filters](compare.md#filters) have: `iso6487`, or `sae-j211`
+                filter_standard: Option<FilterStandard> = "`iso6487`",
+                /// test object and position, the first two characters of the codes, where outputs of several occupants have
+                /// one, `"13"`
+                occupant: Option<String> = "that of the outputs' codes",
+                $( $(#[doc = $meaning])* $place: Option<NameIn<$unit>>, )*
             }
         }
 
@@ -42,60 +79,61 @@ macro_rules! places {
 }
 
 places! {
-    /// Acceleration of the centre of gravity of the head, its resultant; or the element.
-    head,
-    /// The same along the axes of the head.
-    head_x,
-    /// Along y.
-    head_y,
-    /// Along z.
-    head_z,
-    /// Angular velocity of the head about its own axes.
-    head_wx,
-    /// About y.
-    head_wy,
-    /// About z.
-    head_wz,
-    /// How far the head comes forward in the seat.
-    head_excursion,
-    /// The head whose joint is the upper neck: its shear force, axial force and moment.
-    neck,
-    /// Shear force at the upper neck.
-    neck_fx,
-    /// Axial force at the upper neck, tension positive.
-    neck_fz,
-    /// Moment at the upper neck, flexion positive.
-    neck_my,
-    /// Acceleration of the chest, its resultant; or the element.
-    chest,
-    /// The same along the axes of the chest.
-    chest_x,
-    /// Along y.
-    chest_y,
-    /// Along z.
-    chest_z,
-    /// Deflection of the chest.
-    chest_deflection,
-    /// Axial force of the left femur.
-    femur_left,
-    /// Axial force of the right femur.
-    femur_right,
-    /// Sliding of the left knee.
-    knee_left,
-    /// Sliding of the right knee.
-    knee_right,
-    /// Moment about x of the left tibia.
-    tibia_left_mx,
-    /// Moment about y of the left tibia.
-    tibia_left_my,
-    /// Axial force of the left tibia.
-    tibia_left_fz,
-    /// Moment about x of the right tibia.
-    tibia_right_mx,
-    /// Moment about y of the right tibia.
-    tibia_right_my,
-    /// Axial force of the right tibia.
-    tibia_right_fz,
-    /// Acceleration of the vehicle along its way.
-    pulse,
+    /// resultant of the acceleration of the head: an output, or the element. An element gets outputs `head-x`,
+    /// `head-y` and `head-z`, of accelerometers along its own axes at its centre of gravity
+    head: Acceleration,
+    /// its component along the x axis of the head; if components are given, they are used instead of the resultant
+    head_x: Acceleration,
+    /// the same along y
+    head_y: Acceleration,
+    /// the same along z
+    head_z: Acceleration,
+    /// angular velocity of the head about its own x axis
+    head_wx: Rate,
+    /// the same about y
+    head_wy: Rate,
+    /// the same about z
+    head_wz: Rate,
+    /// how far the head comes forward in the seat
+    head_excursion: Length,
+    /// the element of the head: it gets outputs `neck-fx`, `neck-fz` and `neck-my` of what its joint transmits
+    neck: Effort,
+    /// shear force at the upper neck
+    neck_fx: Force,
+    /// axial force there; tension is positive
+    neck_fz: Force,
+    /// moment there; flexion is positive
+    neck_my: Torque,
+    /// as `head`
+    chest: Acceleration,
+    /// as `head_x`
+    chest_x: Acceleration,
+    /// as `head_y`
+    chest_y: Acceleration,
+    /// as `head_z`
+    chest_z: Acceleration,
+    /// how far the chest is pressed in
+    chest_deflection: Length,
+    /// axial force of the left femur
+    femur_left: Force,
+    /// axial force of the right femur
+    femur_right: Force,
+    /// how far the left knee slides
+    knee_left: Length,
+    /// how far the right knee slides
+    knee_right: Length,
+    /// moment about x of the left tibia
+    tibia_left_mx: Torque,
+    /// moment about y of the left tibia
+    tibia_left_my: Torque,
+    /// axial force of the left tibia
+    tibia_left_fz: Force,
+    /// as of the left one
+    tibia_right_mx: Torque,
+    /// as of the left one
+    tibia_right_my: Torque,
+    /// as of the left one
+    tibia_right_fz: Force,
+    /// acceleration of the vehicle along its direction of travel
+    pulse: Acceleration,
 }

@@ -1,30 +1,36 @@
 //! Curves as written, and the places where one is used.
 
+use super::measure::{OfItsUse, OfTheFactor, Pure, Unit};
 use super::place::At;
-use super::quantity::Quantity;
+use super::quantity::{Number, Quantity};
+use super::schema::{Schema, any_of};
 use super::shape::{Misfit, Problems, Record, Shape, check_record, record, words};
 use super::tree::{Kind, Node};
 use serde_yaml::Value;
+use std::marker::PhantomData;
+use std::ops::Deref;
 
 record! {
     /// A function through points.
     Curve as "a curve" {
-        /// Units of abscissa and ordinate for the bare numbers in `points` or in the file.
-        unit: Option<Vec<Quantity>>,
-        /// `[abscissa, ordinate]`, abscissae increasing.
-        points: Option<Vec<Vec<Quantity>>>,
-        /// A text file with the points, relative to this one.
+        /// units of abscissa and ordinate for the bare numbers in `points` or in the file; `1` for a pure number
+        unit: Option<Vec<Quantity>> = "SI, or those in the headings of the file",
+        /// `[abscissa, ordinate]`, at least two, abscissae increasing; numbers, not parameters
+        points: Option<Vec<Vec<Number<OfItsUse>>>> = "required without `file`",
+        /// a text file with the points, its path relative to this file; see [curves from files](#curves-from-files)
         file: Option<String>,
-        /// Abscissa and ordinate in the file: headings, or numbers from 1.
-        columns: Option<Vec<Quantity>>,
-        /// A test in ISO-MME with the points as one of its channels, `TEST.mme`, relative to this file.
+        /// abscissa and ordinate in the file: headings, or numbers of columns
+        columns: Option<Vec<Quantity>> = "`[1, 2]`",
+        /// a test in ISO-MME with the points as one of its channels, `TEST.mme`, relative to this file; see [curves
+        /// from files](#curves-from-files)
         mme: Option<String>,
-        /// The code of the channel.
-        channel: Option<String>,
-        /// What holds between the points.
-        interpolate: Option<Interpolate>,
-        /// What holds beyond the first and the last point.
-        extrapolate: Option<Extrapolate>,
+        /// the code of the channel, or its name in words
+        channel: Option<String> = "required with `mme`",
+        /// between the points: `linear` draws straight lines, `cubic` a smooth curve
+        interpolate: Option<Interpolate> = "`linear`",
+        /// beyond the first and the last point: `linear` goes on with the outermost segment, `hold` keeps the outermost
+        /// value, `error` makes leaving the range a failure of the run
+        extrapolate: Option<Extrapolate> = "`hold`",
     }
 }
 
@@ -53,12 +59,12 @@ words! {
 record! {
     /// A named curve with factors.
     ScaledCurve as "a scaled curve" {
-        /// Name of the curve, or the curve itself.
+        /// name of the curve, or the curve itself: `{ curve: { points: [[0, 0], [0.1, 1]] }, times: belt_stiffness }`
         curve: NameOrCurve,
-        /// Factor on its ordinate.
-        times: Option<Quantity>,
-        /// Factor on its abscissa.
-        stretch: Option<Quantity>,
+        /// factor on the ordinate
+        times: Option<Number<OfTheFactor>> = "1",
+        /// factor on the abscissa, positive: 2 makes a pulse of 80 ms one of 160 ms
+        stretch: Option<Number<Pure>> = "1",
     }
 }
 
@@ -72,6 +78,10 @@ pub enum NameOrCurve {
 }
 
 impl Shape for NameOrCurve {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([String::schema(to), Curve::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) => check_record::<Curve>(at, problems),
@@ -98,7 +108,67 @@ pub enum Function {
     Inline(Curve),
 }
 
+/// A function of `X`, measured in `Y`.
+#[derive(Clone, Debug)]
+pub struct FunctionOf<X, Y>(Function, PhantomData<(X, Y)>);
+
+/// A number, or a function of the time \[s\], measured in `Y`.
+#[derive(Clone, Debug)]
+pub struct OverTime<Y>(Function, PhantomData<Y>);
+
+impl<X: Unit, Y: Unit> FunctionOf<X, Y> {
+    /// Each unit of the abscissa with that of the ordinate.
+    fn units() -> String {
+        let pure = |unit| if unit == "" { "1" } else { unit };
+        let pairs = X::UNIT.split(", ").zip(Y::UNIT.split(", "));
+        let pairs = pairs.map(|(x, y)| format!("{} → {}", pure(x), pure(y)));
+        pairs.collect::<Vec<_>>().join(", ")
+    }
+}
+
+macro_rules! measured {
+    ([$($unit:ident),*] $of:ty, $text:expr) => {
+        impl<$($unit),*> Deref for $of {
+            type Target = Function;
+            fn deref(&self) -> &Function {
+                &self.0
+            }
+        }
+
+        impl<$($unit: Unit),*> Shape for $of {
+            fn unit() -> String {
+                $text
+            }
+
+            fn schema(to: &mut Schema) -> Value {
+                Function::schema(to)
+            }
+
+            fn check(at: At<'_>, problems: &Problems) {
+                Function::check(at, problems);
+            }
+
+            fn read(value: &Value) -> Result<Self, Misfit> {
+                Ok(Self(Function::read(value)?, PhantomData))
+            }
+        }
+    };
+}
+
+measured!([X, Y] FunctionOf<X, Y>, Self::units());
+measured!([Y] OverTime<Y>, Y::UNIT.to_owned());
+
 impl Shape for Function {
+    fn schema(to: &mut Schema) -> Value {
+        to.define("a function", |to| {
+            any_of([
+                Quantity::schema(to),
+                ScaledCurve::schema(to),
+                Curve::schema(to),
+            ])
+        })
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::Map(_) if at.node.get("param").is_some() => Quantity::check(at, problems),
@@ -130,7 +200,8 @@ pub fn has_file(node: &Node) -> bool {
     let Kind::Map(entries) = &node.kind else {
         return false;
     };
-    let known = |key: &str| Curve::KEYS.iter().any(|k| k.name == key);
+    let keys = Curve::keys();
+    let known = |key: &str| keys.iter().any(|k| k.name == key);
     let named = node.get("file").is_some() || node.get("mme").is_some();
     named && entries.iter().all(|entry| known(&entry.key))
 }

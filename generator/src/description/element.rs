@@ -1,47 +1,52 @@
 //! Elements as written.
 
 use super::joint::Joint;
+use super::measure::{Angle, Inertia, Length, Mass};
 use super::mesh::Meshes;
-use super::quantity::{OneOrThree, Quantity};
+use super::quantity::{Number, OneOrThree};
 use super::shape::{record, words};
 
 record! {
     /// A rigid element and the joint that carries it.
     Element as "an element" {
-        /// Name, unique in its system.
+        /// name, unique in its system
         name: String,
-        /// The element that carries it; none for the root.
-        on: Option<String>,
-        /// The joint, in the frame of the element that carries it \[m\].
-        at: Option<Vec<Quantity>>,
-        /// What the joint lets it do: a ball in space, a hinge in the plane where it is left out.
-        joint: Option<Joint>,
-        /// Mass \[kg\].
-        mass: Quantity,
-        /// Centre of gravity, local frame \[m\].
-        cg: Vec<Quantity>,
-        /// Moments of inertia about the centre of gravity \[kg m²\]: the one about y in the plane, three in space.
-        inertia: OneOrThree,
-        /// In space: Bryant angles of the principal axes relative to the local frame \[rad\].
-        axes: Option<Vec<Quantity>>,
-        /// Which of its axes are those of a body that stands upright, in place of those of its system.
-        anatomy: Option<Anatomy>,
-        /// Of a head that has the neck in it: what its joint is.
+        /// the element that carries this one; exactly one element of a system has no `on`
+        on: Option<String> = "none: the root",
+        /// required with `on`: the joint, in the local frame of the element that carries this one
+        at: Option<Vec<Number<Length>>> = "none for the root",
+        /// what the [joint](#a-joint) lets the element do
+        joint: Option<Joint> = "a ball in space, a hinge in the plane",
+        /// mass, positive
+        mass: Number<Mass>,
+        /// centre of gravity, local frame
+        cg: Vec<Number<Length>>,
+        /// about the centre of gravity: the moment about y in the plane; in space the three principal moments, each at
+        /// most the sum of the other two, or the tensor as six numbers `[xx, yy, zz, xy, xz, yz]`, in the axes of the
+        /// element, without `axes`
+        inertia: OneOrThree<Number<Inertia>>,
+        /// in space: Bryant angles of the principal axes relative to the local frame
+        axes: Option<Vec<Number<Angle>>> = "those of the frame",
+        /// which of its axes are [forward and up](#an-anatomy)
+        anatomy: Option<Anatomy> = "that of the system",
+        /// of a head that has the neck in it, with its joint at C7/T1: `lower` of a dummy, whose lower load cell is
+        /// there, so that [codes of the upper one](criteria.md#head-and-neck-in-one) are refused; `within` of a person,
+        /// who has no load cells
         neck: Option<Neck>,
-        /// How it is shown, beside its surfaces.
+        /// the [meshes](#a-mesh) that it is shown with
         mesh: Option<Meshes>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
+        /// `true` adds its [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
     }
 }
 
 record! {
     /// Directions of a body that stands upright, in the local frames of its elements.
     Anatomy as "an anatomy" {
-        /// From back to front.
-        forward: Option<Direction>,
-        /// From the feet to the head.
-        up: Option<Direction>,
+        /// from back to front: `x`, `y` or `z`, or one of them with `-`
+        forward: Option<Direction> = "`x`",
+        /// from the feet to the head, at right angles to `forward`
+        up: Option<Direction> = "`z`",
     }
 }
 

@@ -1,8 +1,10 @@
 //! Forces as written. The key that names a force says which [law](crate::law) it is.
 
 use super::expand::{Expander, Node};
+use super::measure::Length;
 use super::place::At;
-use super::quantity::Quantity;
+use super::quantity::Number;
+use super::schema::{Schema, any_of};
 use super::shape::{Key, Misfit, Problems, Shape, record};
 use super::tree::Kind;
 use crate::diagnostic::{nearest, quoted};
@@ -17,8 +19,10 @@ pub struct LawKeys {
     pub title: &'static str,
     /// Reports values that do not have the shape of this law.
     pub shape: fn(At<'_>, &Problems),
+    /// The JSON Schema of this law.
+    pub schema: fn(&mut Schema) -> Value,
     /// The records of the law's keys, in the order of the reference page.
-    pub records: fn() -> Vec<(&'static str, &'static [Key])>,
+    pub records: fn() -> Vec<(&'static str, Vec<Key>)>,
     /// Turns a copy of a force into its mirror image, with its name. `None`, with a report, if the force has no mirror
     /// image.
     pub image: fn(&mut Expander<'_>, &Node, &mut Node) -> Option<()>,
@@ -46,16 +50,34 @@ impl LawKeys {
 pub struct Force(pub Value);
 
 record! {
+    /// When a force acts.
+    Acting as "when a force acts" {
+        /// `false` leaves the force out
+        enabled: Option<bool> = "`true`",
+        /// the force acts from this [switch](#a-switch) on
+        since: Option<String> = "the start",
+        /// the force acts up to this switch
+        until: Option<String> = "the end",
+    }
+}
+
+record! {
     /// A point on a body.
     Attachment as "an attachment" {
-        /// `frame`, or an element as `system/element`.
+        /// `frame`, a vehicle, or an element as `system/element`
         on: String,
-        /// The point, local frame \[m\].
-        at: Vec<Quantity>,
+        /// the point, local frame
+        at: Vec<Number<Length>>,
     }
 }
 
 impl Shape for Force {
+    fn schema(to: &mut Schema) -> Value {
+        let laws = to.language.laws.iter();
+        let laws: Vec<Value> = laws.map(|law| (law.schema)(to)).collect();
+        any_of(laws)
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         let laws = problems.language.laws;
         let kinds = || laws.iter().map(|law| law.key);

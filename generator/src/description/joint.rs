@@ -2,9 +2,11 @@
 //! by the files of [kinds](crate::joint).
 
 use super::language::Language;
+use super::measure::{self, Armature, Pure, Ratio};
 use super::place::At;
-use super::quantity::Quantity;
-use super::shape::{Key, Misfit, Problems, Shape, check_keys, check_word, misfit, of_key, record};
+use super::quantity::{Number, Quantity};
+use super::schema::{Schema, any_of, list_of, words};
+use super::shape::{Key, Misfit, Problems, Shape, check_keys, check_word, misfit, record};
 use super::tree::Kind;
 use serde_yaml::Value;
 use std::collections::BTreeMap;
@@ -95,14 +97,31 @@ const TITLE: &str = "a joint";
 /// The keys of a joint with the title of its record; those of kinds are in the middle.
 pub(super) fn keys(language: &Language) -> (&'static str, Vec<Key>) {
     let kinds = language.joint_keys.iter();
-    let keys = [Key::optional::<String>("name")].into_iter();
+    let keys = [Key::of::<Option<String>>(
+        "name",
+        "`angle` or `position`, in lists with the axis: `angle-x`",
+        "name of the freedom, unique in its joint",
+    )]
+    .into_iter();
     let keys = keys
         .chain(kinds.clone().map(|kind| kind.key))
         .chain(kinds.flat_map(|kind| kind.keys.iter().copied()))
         .chain([
-            Key::optional::<Quantity>("zero"),
-            Key::optional::<Quantity>("armature"),
-            Key::optional::<Follows>("follows"),
+            Key::of::<Option<Number<measure::Coordinate>>>(
+            "zero",
+            "0",
+            "is added to the coordinate: the position of the element where its coordinate is 0",
+        ),
+            Key::of::<Option<Number<Armature>>>(
+            "armature",
+            "0",
+            "inertia that only the rate of this freedom moves: that of a rotor, times the square of its gear ratio",
+        ),
+            Key::of::<Option<Follows>>(
+            "follows",
+            "",
+            "[the freedom](#a-coupling) whose coordinate gives this one",
+        ),
         ]);
     (TITLE, keys.collect())
 }
@@ -114,6 +133,11 @@ fn check_freedom(at: At<'_>, problems: &Problems) {
 }
 
 impl Shape for Freedom {
+    fn schema(to: &mut Schema) -> Value {
+        let (title, keys) = keys(to.language);
+        to.keys(title, &keys)
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         if !matches!(at.node.kind, Kind::Map(_)) {
             problems.add(at.problem(
@@ -136,10 +160,10 @@ impl Shape for Freedom {
             .into_iter()
             .filter(|(key, _)| !of_all.contains(&key.as_str()));
         Ok(Freedom {
-            name: of_key(value, "name")?,
-            zero: of_key(value, "zero")?,
-            armature: of_key(value, "armature")?,
-            follows: of_key(value, "follows")?,
+            name: Option::of_key(value, "name")?,
+            zero: Option::of_key(value, "zero")?,
+            armature: Option::of_key(value, "armature")?,
+            follows: Option::of_key(value, "follows")?,
             of_kind: of_kind.map(|(key, value)| (key, value.clone())).collect(),
         })
     }
@@ -148,14 +172,14 @@ impl Shape for Freedom {
 record! {
     /// How a freedom follows another: its coordinate is ratio times that of the other, plus an offset.
     Follows as "a coupling" {
-        /// The element that the other joint carries, of the same system.
+        /// the element, of the same system, whose joint is followed
         joint: String,
-        /// Of a joint with several freedoms: the one that is followed.
+        /// required if the joint has several freedoms: the name of the followed freedom
         freedom: Option<String>,
-        /// Change of this coordinate per change of the other.
-        ratio: Option<Quantity>,
-        /// This coordinate where the other is 0 \[rad\] or \[m\].
-        offset: Option<Quantity>,
+        /// change of this coordinate per change of the other
+        ratio: Option<Number<Ratio>> = "1",
+        /// this coordinate where the other is 0
+        offset: Option<Number<measure::Coordinate>> = "0",
     }
 }
 
@@ -165,7 +189,7 @@ pub enum Axis {
     /// One of the frame's own, or its opposite.
     Word(String),
     /// A vector; its length does not matter.
-    Vector(Vec<Quantity>),
+    Vector(Vec<Number<Pure>>),
 }
 
 /// What a joint may look like.
@@ -194,9 +218,13 @@ impl Joint {
 }
 
 impl Shape for Axis {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([words(&AXES), Vec::<Number<Pure>>::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::List(_) => Vec::<Quantity>::check(at, problems),
+            Kind::List(_) => Vec::<Number<Pure>>::check(at, problems),
             _ => check_word(at, &AXES, problems),
         }
     }
@@ -210,6 +238,13 @@ impl Shape for Axis {
 }
 
 impl Shape for Joint {
+    fn schema(to: &mut Schema) -> Value {
+        let words_of = to.language.joint_words.iter().map(|word| word.word);
+        let words_of: Vec<&str> = words_of.collect();
+        let one = Freedom::schema(to);
+        any_of([words(&words_of), one.clone(), list_of(one)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::List(_) => Vec::<Freedom>::check(at, problems),

@@ -14,6 +14,7 @@ use super::part;
 use super::person;
 use super::place::At;
 use super::run::Run;
+use super::schema::{Schema, numbers};
 use super::shape::{Misfit, Named, Problems, Record, Shape, misfit, record, words};
 use super::short::{Include, Mirror};
 use super::surface::Surface;
@@ -36,43 +37,48 @@ const MAX_FILES: usize = 64;
 record! {
     /// A model.
     Model as "a model" {
-        /// Name, kebab-case.
+        /// name of the model, words joined by dashes
         model: String,
-        /// One sentence for listings.
-        title: Option<String>,
-        /// 2 or 3.
+        /// one sentence for listings
+        title: Option<String> = "empty",
+        /// `2`: motion in the x–z plane; `3`: in space
         dimension: Dimension,
-        /// How orientation is described in space.
-        coordinates: Option<Coordinates>,
-        /// The system of units in which outputs are shown.
-        units: Option<Units>,
-        /// Files to read first, relative to this one.
+        /// in space only. `quaternion`: four numbers and the angular velocity; `bryant`: the [angles of the
+        /// formalism](#charts-of-bryant-angles) and their rates
+        coordinates: Option<Coordinates> = "`quaternion`",
+        /// `SI` or `engineering`: the [units](#units-of-outputs) in which outputs are shown
+        units: Option<Units> = "`SI`",
+        /// files to read first, with paths relative to this file, whose parts are joined by `/` or, as on Windows, by
+        /// `\`, on every system; see [an included file](#an-included-file); or [instances](#an-instance) of them
         include: Option<Vec<Include>>,
-        /// Numbers that may be changed without compiling again.
+        /// [parameters](#a-parameter) by name
         parameters: Option<Named<ParameterEntry>>,
-        /// Functions through points.
+        /// [inputs](#inputs) by name: numbers that change from outside during a run
+        inputs: Option<Named<ParameterEntry>>,
+        /// [curves](#a-curve) by name
         curves: Option<Named<Curve>>,
-        /// What two sides of a body have to do with each other.
-        mirror: Option<Mirror>,
-        /// Ellipsoids and planes by name.
+        /// how [two sides](#a-mirror) correspond
+        mirror: Option<Mirror> = "left, right",
+        /// [ellipsoids and planes](#named-surfaces) by name
         surfaces: Option<Named<Surface>>,
-        /// Lists of surfaces by name.
+        /// lists of surfaces by name
         groups: Option<Named<Vec<String>>>,
-        /// What stands in the absolute frame to be seen.
+        /// [meshes](#a-mesh) that stand in the absolute frame
         mesh: Option<Meshes>,
-        /// Bodies whose motion is given.
+        /// list of [vehicles](#a-vehicle), bodies whose motion is given
         vehicles: Option<Vec<Vehicle>>,
-        /// Trees of elements.
-        systems: Option<Vec<System>>,
-        /// What acts on them.
+        /// list of [systems](#a-system)
+        systems: Option<Vec<System>> = "those included",
+        /// list of forces: [joint](#a-joint-force), [field](#a-field), [contact](#a-contact), [belt](#a-belt),
+        /// [spring](#a-spring), [bushing](#a-bushing), [airbag](#an-airbag), [load](#a-load), [user](#a-user-force)
         forces: Option<Vec<Force>>,
-        /// What happens once.
+        /// list of [switches](#a-switch)
         switches: Option<Vec<Switch>>,
-        /// Columns of the table.
+        /// list of [outputs](#an-output), the columns of the table
         outputs: Option<Vec<Column>>,
-        /// Duration and sampling.
-        run: Option<Run>,
-        /// By what a run is judged.
+        /// [duration and sampling](#a-run)
+        run: Option<Run> = "1 s, every 10 ms",
+        /// the [injury criteria](#a-set-of-criteria) that judge a run
         criteria: Option<Criteria>,
     }
 }
@@ -80,29 +86,31 @@ record! {
 record! {
     /// A file that others include.
     Included as "an included file" {
-        /// Files to read first, relative to this one.
+        /// files to read first, relative to this one, or instances of them
         include: Option<Vec<Include>>,
-        /// Numbers that may be changed without compiling again.
+        /// as in a model; all files share their names
         parameters: Option<Named<ParameterEntry>>,
-        /// Functions through points.
+        /// as in a model
+        inputs: Option<Named<ParameterEntry>>,
+        /// as in a model
         curves: Option<Named<Curve>>,
-        /// What two sides of a body have to do with each other.
-        mirror: Option<Mirror>,
-        /// Ellipsoids and planes by name.
+        /// for this file alone
+        mirror: Option<Mirror> = "left, right",
+        /// as in a model
         surfaces: Option<Named<Surface>>,
-        /// Lists of surfaces by name.
+        /// as in a model
         groups: Option<Named<Vec<String>>>,
-        /// What stands in the absolute frame to be seen.
+        /// as in a model
         mesh: Option<Meshes>,
-        /// Bodies whose motion is given.
+        /// as in a model
         vehicles: Option<Vec<Vehicle>>,
-        /// Trees of elements.
+        /// as in a model
         systems: Option<Vec<System>>,
-        /// What acts on them.
+        /// as in a model
         forces: Option<Vec<Force>>,
-        /// What happens once.
+        /// as in a model
         switches: Option<Vec<Switch>>,
-        /// Columns of the table.
+        /// as in a model
         outputs: Option<Vec<Column>>,
     }
 }
@@ -137,6 +145,10 @@ pub enum Dimension {
 }
 
 impl Shape for Dimension {
+    fn schema(_: &mut Schema) -> Value {
+        numbers(&[2, 3])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::Scalar { text, .. } if ["2", "3"].contains(&text.as_str()) => {}
@@ -427,6 +439,7 @@ impl Reader<'_> {
         let contents = Included {
             include: model.include,
             parameters: model.parameters,
+            inputs: model.inputs,
             curves: model.curves,
             mirror: model.mirror,
             surfaces: model.surfaces,

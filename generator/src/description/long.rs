@@ -10,8 +10,9 @@ use std::path::Path;
 const WIDTH: usize = 150;
 
 /// The sections that several files may have, in the order in which they are written.
-const SECTIONS: [&str; 8] = [
+const SECTIONS: [&str; 9] = [
     "parameters",
+    "inputs",
     "curves",
     "vehicles",
     "systems",

@@ -1,7 +1,9 @@
 //! Meshes as written: files of triangles, and simple shapes, that are only shown.
 
+use super::measure::{Angle, Length, Pure};
 use super::place::At;
-use super::quantity::{OneOrThree, Quantity};
+use super::quantity::{Number, OneOrThree};
+use super::schema::{Schema, any_of, list_of, typed};
 use super::shape::{Misfit, Problems, Shape, check_record, record, words};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -21,18 +23,22 @@ words! {
 record! {
     /// A mesh that is shown with a body.
     Mesh as "a mesh" {
-        /// A file of triangles, relative to this one: STL, OBJ, glTF or GLB.
-        file: Option<String>,
-        /// In place of a file, a shape about the origin.
-        shape: Option<Solid>,
-        /// Of a shape how long it is along its axes, or one number for all of them \[m\].
-        size: Option<OneOrThree>,
-        /// Factor on its coordinates, or one for each of its axes: 0.001 of a file in mm.
-        scale: Option<OneOrThree>,
-        /// Where its origin is, frame of the body \[m\].
-        at: Option<Vec<Quantity>>,
-        /// Bryant angles of its axes relative to those of the body, or the one about y \[rad\].
-        angles: Option<OneOrThree>,
+        /// path relative to this file, of STL (text or binary), OBJ, glTF or GLB, by its ending; of glTF y is up in the
+        /// file, and z in the model. `package://NAME/…`, as URDF has it, is looked for in the folders around the file
+        /// that are called `NAME` or have a folder `NAME`, and in those of `ROS_PACKAGE_PATH`
+        file: Option<String> = "this or `shape`",
+        /// `box`, `sphere`, or `cylinder` along z, in the middle of its axes
+        shape: Option<Solid> = "this or `file`",
+        /// its lengths along x, y and z, or one for all of them
+        size: Option<OneOrThree<Number<Length>>> = "required of a shape",
+        /// factor on the coordinates of the file, or three of them, in the plane too: 0.001 of a file in mm; a mirror
+        /// image has one below 0
+        scale: Option<OneOrThree<Number<Pure>>> = "1",
+        /// where its origin is, local frame
+        at: Option<Vec<Number<Length>>> = "0",
+        /// three Bryant angles of its axes relative to the local frame, in the plane too; a single number is the angle
+        /// about y
+        angles: Option<OneOrThree<Number<Angle>>> = "0",
     }
 }
 
@@ -41,6 +47,11 @@ record! {
 pub struct Meshes(pub Vec<Mesh>);
 
 impl Shape for Meshes {
+    fn schema(to: &mut Schema) -> Value {
+        let each = any_of([typed("string"), Mesh::schema(to)]);
+        any_of([each.clone(), list_of(each)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::List(items) => {

@@ -20,6 +20,7 @@ pub mod joint;
 pub mod language;
 pub mod load;
 pub mod long;
+pub mod measure;
 pub mod mend;
 pub mod mesh;
 pub mod output;
@@ -30,6 +31,7 @@ pub mod place;
 pub mod point;
 pub mod quantity;
 pub mod run;
+pub mod schema;
 pub mod shape;
 pub mod short;
 pub mod slip;
@@ -51,7 +53,7 @@ use shape::{Key, Record};
 /// Every record of the language: what it is called and its keys, in the order of the reference page.
 pub fn vocabulary(language: &Language) -> Vec<(&'static str, Vec<Key>)> {
     fn of<R: Record>() -> (&'static str, Vec<Key>) {
-        (R::TITLE, R::KEYS.to_vec())
+        (R::TITLE, R::keys())
     }
     let mut all = vec![
         of::<load::Model>(),
@@ -79,7 +81,7 @@ pub fn vocabulary(language: &Language) -> Vec<(&'static str, Vec<Key>)> {
         of::<joint::Follows>(),
     ];
     let laws = language.laws.iter().flat_map(|law| (law.records)());
-    all.extend(laws.map(|(title, keys)| (title, keys.to_vec())));
+    all.extend(laws);
     all.extend([
         of::<switch::Switch>(),
         of::<switch::Trigger>(),

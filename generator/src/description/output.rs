@@ -2,6 +2,7 @@
 
 use super::place::At;
 use super::point::Point;
+use super::schema::{Schema, any_of};
 use super::shape::{Misfit, Named, Problems, Shape, check_record, record, words};
 use super::short::Each;
 use serde_yaml::Value;
@@ -9,56 +10,67 @@ use serde_yaml::Value;
 record! {
     /// A column of the table.
     Output as "an output" {
-        /// Heading, unique.
+        /// heading of the column, unique; at most 80 characters
         name: String,
-        /// Whether it is shown.
-        enabled: Option<bool>,
-        /// What is looked at: `man/head`, `joint man/head`, `contact seat`, `belt chest`, `man`.
+        /// `false` leaves the output out
+        enabled: Option<bool> = "`true`",
+        /// the thing that has the quantity, as in the table above; or a [list](#several-outputs-in-one)
         of: Each<String>,
-        /// What of it.
+        /// which quantity, as in the table above
         what: String,
-        /// The point of an element, local frame \[m\].
-        at: Option<Point>,
-        /// Which component of a vector.
-        component: Option<Each<Component>>,
-        /// The body along whose axes: `frame`, `local`, a vehicle or an element.
-        axes: Option<String>,
-        /// The body that the observer rides on.
-        relative_to: Option<String>,
-        /// Of a joint, a contact or a belt: the body on which the force acts.
-        on: Option<String>,
-        /// Of a belt that runs through rings: which segment, counted from its end `from`.
+        /// point of an element: `cg`, or coordinates in the local frame
+        at: Option<Point> = "`cg`, of a vehicle its origin",
+        /// of a vector: `x`, `y`, `z` or `resultant`, or a [list](#several-outputs-in-one) of these. For `angle` in
+        /// space there is no default: `x`, `y` or `z` is the first, second or third Bryant angle, `resultant` the angle
+        /// of the single turn that leads to the same orientation, 0 to 180°
+        component: Option<Each<Component>> = "`resultant`",
+        /// the body whose axes are `x`, `y` and `z`: `frame` for the absolute axes, `local` for those of the body in
+        /// `of` or of the body that the force acts on, or a body by its name
+        axes: Option<String> = "those of `relative_to`",
+        /// the body that carries [the observer](#seen-from-a-body)
+        relative_to: Option<String> = "`frame`",
+        /// for a joint, a contact, a belt, a spring, a bushing or an airbag: the body that the force acts on; see
+        /// [signs](#signs)
+        on: Option<String> = "the first body",
+        /// required for a belt with [rings](#a-ring): which segment, counted from 1 at its end `from`
         segment: Option<u32>,
-        /// Of a belt that runs through rings: which ring.
+        /// required for the `slip` of a belt: the name of the ring
         ring: Option<String>,
-        /// In space: which relative rotation of a joint.
-        about: Option<Axis>,
-        /// Of a joint with several freedoms of its own: which.
+        /// required for a joint in space: `x`, `y` or `z`, the first, second or third relative angle; for a joint force
+        /// also `flexion` or `torsion`
+        about: Option<Axis> = "none in the plane",
+        /// required for a [joint](#a-joint) with several freedoms: which one
         freedom: Option<String>,
-        /// Its channel code in ISO-MME, 16 characters; of several components with `?` for the direction.
+        /// channel code of ISO-MME, 16 capital letters and digits, for `bryant run --mme` and criteria; if its 15th
+        /// character is X, Y or Z, the column has the [axes and signs of SAE J211-1](criteria.md#axes-and-signs), and
+        /// the `axes` of a sensor are `local`; with several components the 15th character is `?` and becomes X, Y, Z or
+        /// R; a mirror image has RI for LE, or LE for RI
         code: Option<String>,
-        /// The channel frequency class that it is filtered by.
+        /// `CFC60`, `CFC180`, `CFC600` or `CFC1000`: the [filter](compare.md#filters) of ISO 6487, or, as `SAE CFC180`,
+        /// that of SAE J211-1. The table, files, plots, responses and studies apply it. A resultant itself is not
+        /// filtered; its components are. The generated code, `bryant accuracy` and `bryant effects` use unfiltered
+        /// values
         filter: Option<Class>,
-        /// The unit in which it is shown.
-        unit: Option<String>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
+        /// the [unit](#units-of-outputs) in which it is shown, such as `mm`, `g`, `kN*m` or `km/h`
+        unit: Option<String> = "that of the model's `units`",
+        /// `true` adds the output of the [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
     }
 }
 
 record! {
     /// A column that is computed from others.
     Formula as "an output with a formula" {
-        /// Heading, unique.
+        /// heading of the column, unique; at most 80 characters
         name: String,
-        /// Whether it is shown.
-        enabled: Option<bool>,
-        /// Arithmetic of outputs above it, parameters and numbers with their units.
+        /// `false` leaves the output out
+        enabled: Option<bool> = "`true`",
+        /// the arithmetic
         formula: String,
-        /// Words of the formula and the outputs that they stand for.
+        /// words of the formula, each with the name of the output that it stands for: `{ v: relative velocity }`
         with: Option<Named<String>>,
-        /// The unit in which it is shown.
-        unit: Option<String>,
+        /// the [unit](#units-of-outputs) in which it is shown
+        unit: Option<String> = "that of the model's `units`",
     }
 }
 
@@ -82,6 +94,10 @@ impl Column {
 }
 
 impl Shape for Column {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([Output::schema(to), Formula::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.get("formula") {
             Some(_) => check_record::<Formula>(at, problems),

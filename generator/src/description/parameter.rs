@@ -1,7 +1,9 @@
 //! Parameters as written: numbers that may be changed without compiling again.
 
+use super::measure::{Any, OfTheValue};
 use super::place::At;
-use super::quantity::Quantity;
+use super::quantity::{Number, Quantity};
+use super::schema::{Schema, any_of};
 use super::shape::{Misfit, Problems, Shape, check_record, record};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -9,12 +11,12 @@ use serde_yaml::Value;
 record! {
     /// A parameter and its range.
     Parameter as "a parameter" {
-        /// Value where nobody sets another.
-        value: Quantity,
-        /// Smallest value allowed.
-        min: Option<Quantity>,
-        /// Largest value allowed.
-        max: Option<Quantity>,
+        /// the value unless a run sets another; `name: 0.3` is short for `name: { value: 0.3 }`
+        value: Number<Any>,
+        /// smallest value allowed
+        min: Option<Number<OfTheValue>> = "unbounded",
+        /// largest value allowed
+        max: Option<Number<OfTheValue>> = "unbounded",
     }
 }
 
@@ -23,6 +25,10 @@ record! {
 pub struct ParameterEntry(pub Parameter);
 
 impl Shape for ParameterEntry {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([Quantity::schema(to), Parameter::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) => check_record::<Parameter>(at, problems),
@@ -34,7 +40,7 @@ impl Shape for ParameterEntry {
         let parameter = match value.is_mapping() {
             true => Parameter::read(value)?,
             false => Parameter {
-                value: Quantity::read(value)?,
+                value: Number::read(value)?,
                 min: None,
                 max: None,
             },

@@ -1,7 +1,9 @@
 //! A point of an element as written: `cg`, or its coordinates in the local frame.
 
+use super::measure::Length;
 use super::place::At;
-use super::quantity::Quantity;
+use super::quantity::Number;
+use super::schema::{Schema, any_of, words};
 use super::shape::{Misfit, Problems, Shape};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -12,13 +14,21 @@ pub enum Point {
     /// The centre of gravity.
     Cg,
     /// In the local frame \[m\].
-    At(Vec<Quantity>),
+    At(Vec<Number<Length>>),
 }
 
 impl Shape for Point {
+    fn unit() -> String {
+        Vec::<Number<Length>>::unit()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        any_of([words(&["cg"]), Vec::<Number<Length>>::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::List(_) => Vec::<Quantity>::check(at, problems),
+            Kind::List(_) => Vec::<Number<Length>>::check(at, problems),
             Kind::Scalar { text, .. } if text == "cg" => {}
             _ => problems.add(at.problem(
                 format!("here stands {}, but a point is needed", at.node.article()),

@@ -1,9 +1,49 @@
 //! A quantity as written: a number in SI units, a text (`20 deg`, `2 * belt_stiffness`), or `{ param: name }`.
 
+use super::measure::Unit;
 use super::place::At;
+use super::schema::{Schema, any_of, typed};
 use super::shape::{Misfit, Problems, Shape, check_record, misfit, record};
 use super::tree::Kind;
 use serde_yaml::Value;
+use std::marker::PhantomData;
+use std::ops::Deref;
+
+/// A quantity that is measured in `U`; `&Number<U>` is a `&Quantity` where the unit does not matter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number<U>(Quantity, PhantomData<U>);
+
+impl<U> Number<U> {
+    /// The same, measured in something else.
+    pub fn measured_in<V>(&self) -> Number<V> {
+        Number(self.0.clone(), PhantomData)
+    }
+}
+
+impl<U> Deref for Number<U> {
+    type Target = Quantity;
+    fn deref(&self) -> &Quantity {
+        &self.0
+    }
+}
+
+impl<U: Unit> Shape for Number<U> {
+    fn unit() -> String {
+        U::UNIT.to_owned()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        Quantity::schema(to)
+    }
+
+    fn check(at: At<'_>, problems: &Problems) {
+        Quantity::check(at, problems);
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        Ok(Number(Quantity::read(value)?, PhantomData))
+    }
+}
 
 /// What stands for a number.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,12 +59,18 @@ pub enum Quantity {
 record! {
     /// A number that is the value of a parameter.
     Param as "a reference to a parameter" {
-        /// Name of the parameter.
+        /// name of the parameter
         param: String,
     }
 }
 
 impl Shape for Quantity {
+    fn schema(to: &mut Schema) -> Value {
+        to.define("a quantity", |to| {
+            any_of([typed("number"), typed("string"), Param::schema(to)])
+        })
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
             Kind::Map(_) => check_record::<Param>(at, problems),
@@ -52,14 +98,35 @@ impl Shape for Quantity {
 
 /// One value in the plane, three in space: moments of inertia, angles, rates, moments.
 #[derive(Clone, Debug, PartialEq)]
-pub enum OneOrThree<T = Quantity> {
+pub enum OneOrThree<T> {
     /// About y.
     One(T),
     /// One per axis.
     List(Vec<T>),
 }
 
+impl<T> OneOrThree<T> {
+    /// The values with their places; `at` is that of the whole.
+    pub fn each<'w>(&'w self, at: At<'w>) -> Vec<(&'w T, At<'w>)> {
+        match self {
+            OneOrThree::One(one) => vec![(one, at)],
+            OneOrThree::List(list) => {
+                let items = list.iter().enumerate();
+                items.map(|(i, one)| (one, at.item(i))).collect()
+            }
+        }
+    }
+}
+
 impl<T: Shape> Shape for OneOrThree<T> {
+    fn unit() -> String {
+        T::unit()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        any_of([T::schema(to), Vec::<T>::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::List(_) => Vec::<T>::check(at, problems),

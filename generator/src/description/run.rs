@@ -1,14 +1,15 @@
 //! A run as written.
 
-use super::quantity::Quantity;
+use super::measure::Time;
+use super::quantity::Number;
 use super::shape::record;
 
 record! {
     /// Duration and sampling.
     Run as "a run" {
-        /// Length of a run \[s\].
-        duration: Option<Quantity>,
-        /// Time between two lines of the table \[s\].
-        every: Option<Quantity>,
+        /// length of a run
+        duration: Option<Number<Time>> = "1 s",
+        /// time between two lines of the table; at most a million lines
+        every: Option<Number<Time>> = "10 ms",
     }
 }

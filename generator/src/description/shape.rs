@@ -8,11 +8,14 @@
 use super::language::Language;
 use super::mend::Correction;
 use super::place::At;
+use super::schema::{Schema, list_of, mapping_of, typed};
 use super::slip;
 use super::tree::{Entry, Kind, Span};
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
-use serde_yaml::Value;
+pub use crate::{record, words};
+pub use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
+use std::ops::Deref;
 
 /// Most problems that are kept.
 const MAX_PROBLEMS: usize = 1000;
@@ -104,6 +107,12 @@ impl Problems {
 pub trait Shape: Sized {
     /// True where a key may be left out.
     const OPTIONAL: bool = false;
+    /// What its numbers are measured in, as the reference page writes it; "" where it has none.
+    fn unit() -> String {
+        String::new()
+    }
+    /// Its JSON Schema; what has a name is defined in `to`.
+    fn schema(to: &mut Schema) -> Value;
     /// Reports what cannot be read.
     fn check(at: At<'_>, problems: &Problems);
     /// Reads a value that passed the check.
@@ -111,6 +120,58 @@ pub trait Shape: Sized {
     /// # Errors
     /// A value that would not pass the check. A key that is left out is read as [`Value::Null`].
     fn read(value: &Value) -> Result<Self, Misfit>;
+
+    /// Adds the key of a record that has such a value; a [`Flat`] adds several.
+    fn declare(
+        name: &'static str,
+        default: &'static str,
+        meaning: &'static str,
+        to: &mut Vec<Key>,
+    ) {
+        to.push(Key::of::<Self>(name, default, meaning));
+    }
+
+    /// Reads the value of a key of a mapping.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    fn of_key(mapping: &Value, key: &str) -> Result<Self, Misfit> {
+        let value = mapping.get(key).unwrap_or(&Value::Null);
+        Self::read(value).map_err(|misfit| format!("{key}: {misfit}"))
+    }
+}
+
+/// A record whose keys stand among those of another record. Derefs to it.
+#[derive(Clone, Debug)]
+pub struct Flat<R>(pub R);
+
+impl<R> Deref for Flat<R> {
+    type Target = R;
+    fn deref(&self) -> &R {
+        &self.0
+    }
+}
+
+impl<R: Record> Shape for Flat<R> {
+    fn schema(to: &mut Schema) -> Value {
+        to.record::<R>()
+    }
+
+    fn check(at: At<'_>, problems: &Problems) {
+        check_record::<R>(at, problems);
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        R::among(value).map(Flat)
+    }
+
+    fn declare(_: &'static str, _: &'static str, _: &'static str, to: &mut Vec<Key>) {
+        to.extend(R::keys());
+    }
+
+    fn of_key(mapping: &Value, _: &str) -> Result<Self, Misfit> {
+        Self::read(mapping)
+    }
 }
 
 /// Why a value cannot be read, as text.
@@ -123,17 +184,37 @@ pub struct Key {
     pub name: &'static str,
     /// True where the key may be left out.
     pub optional: bool,
+    /// What its numbers are measured in; "" where it has none.
+    pub unit: fn() -> String,
+    /// What holds where the key is left out, as the reference page says it.
+    pub default: &'static str,
+    /// What it means: the sentence of the reference page.
+    pub meaning: &'static str,
     /// Checks its value.
     pub check: fn(At<'_>, &Problems),
+    /// The JSON Schema of its value.
+    pub schema: fn(&mut Schema) -> Value,
 }
 
 impl Key {
-    /// A key that may be left out, with a value of this shape.
-    pub const fn optional<T: Shape>(name: &'static str) -> Key {
+    /// A key with a value of this shape. `default` says what holds where it is left out; "" for the usual.
+    pub const fn of<T: Shape>(
+        name: &'static str,
+        default: &'static str,
+        meaning: &'static str,
+    ) -> Key {
         Key {
             name,
-            optional: true,
+            optional: T::OPTIONAL,
+            unit: T::unit,
+            default: match default.as_bytes() {
+                [] if T::OPTIONAL => "none",
+                [] => "required",
+                _ => default,
+            },
+            meaning,
             check: T::check,
+            schema: T::schema,
         }
     }
 }
@@ -143,47 +224,69 @@ pub trait Record {
     /// What it is called, with its article ("an element").
     const TITLE: &'static str;
     /// Its keys, in the order of the reference page.
-    const KEYS: &'static [Key];
+    fn keys() -> Vec<Key>;
+    /// Reads a mapping that passed the check, and may have other keys besides.
+    ///
+    /// # Errors
+    /// As [`Shape::read`].
+    fn among(value: &Value) -> Result<Self, Misfit>
+    where
+        Self: Sized;
 }
 
 /// Declares a record: the struct, its [`Record`] and its [`Shape`].
+#[macro_export]
+#[doc(hidden)]
 macro_rules! record {
-    ($(#[$meta:meta])* $name:ident as $title:literal { $( $(#[$field_meta:meta])* $field:ident: $type:ty, )* }) => {
+    ($(#[$meta:meta])* $name:ident as $title:literal {
+        $( $(#[doc = $meaning:literal])* $field:ident: $type:ty $(= $default:literal)?, )*
+    }) => {
         $(#[$meta])*
         #[derive(Clone, Debug)]
-        pub struct $name { $( $(#[$field_meta])* pub $field: $type, )* }
+        pub struct $name { $( $(#[doc = $meaning])* pub $field: $type, )* }
 
         impl $crate::description::shape::Record for $name {
             const TITLE: &'static str = $title;
-            const KEYS: &'static [$crate::description::shape::Key] = &[ $( $crate::description::shape::Key {
-                name: stringify!($field),
-                optional: <$type as $crate::description::shape::Shape>::OPTIONAL,
-                check: <$type as $crate::description::shape::Shape>::check,
-            }, )* ];
+            fn keys() -> Vec<$crate::description::shape::Key> {
+                let mut all = Vec::new();
+                $( <$type as $crate::description::shape::Shape>::declare(
+                    stringify!($field),
+                    concat!($( $default )?),
+                    concat!($( $meaning ),*),
+                    &mut all,
+                ); )*
+                all
+            }
+
+            fn among(value: &$crate::description::shape::Value) -> Result<Self, $crate::description::shape::Misfit> {
+                use $crate::description::shape::Shape;
+                Ok($name { $( $field: <$type>::of_key(value, stringify!($field))?, )* })
+            }
         }
 
         impl $crate::description::shape::Shape for $name {
+            fn schema(to: &mut $crate::description::schema::Schema) -> $crate::description::shape::Value {
+                to.record::<$name>()
+            }
+
             fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_record::<$name>(at, problems);
             }
 
-            fn read(value: &serde_yaml::Value) -> Result<Self, $crate::description::shape::Misfit> {
-                use $crate::description::shape::{Record, of_key, with_keys};
-                with_keys(value, Self::TITLE, Self::KEYS)?;
-                Ok($name { $( $field: of_key(value, stringify!($field))?, )* })
+            fn read(value: &$crate::description::shape::Value) -> Result<Self, $crate::description::shape::Misfit> {
+                use $crate::description::shape::{Record, with_keys};
+                with_keys(value, Self::TITLE, &Self::keys())?;
+                Self::among(value)
             }
         }
     };
 }
-pub(crate) use record;
 
-/// Declares a set of words, of which one may be written.
+/// Declares a set of words, of which one may be written: an enumeration, or the words of one that there is.
+#[macro_export]
+#[doc(hidden)]
 macro_rules! words {
-    ($(#[$meta:meta])* $name:ident { $( $(#[$word_meta:meta])* $word:ident = $text:literal, )* }) => {
-        $(#[$meta])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        pub enum $name { $( $(#[$word_meta])* $word, )* }
-
+    (impl $name:ident { $( $word:ident = $text:literal, )* }) => {
         impl $name {
             /// As it is written.
             pub fn word(self) -> &'static str {
@@ -192,11 +295,15 @@ macro_rules! words {
         }
 
         impl $crate::description::shape::Shape for $name {
+            fn schema(_: &mut $crate::description::schema::Schema) -> $crate::description::shape::Value {
+                $crate::description::schema::words(&[ $( $text, )* ])
+            }
+
             fn check(at: $crate::description::place::At<'_>, problems: &$crate::description::shape::Problems) {
                 $crate::description::shape::check_word(at, &[ $( $text, )* ], problems);
             }
 
-            fn read(value: &serde_yaml::Value) -> Result<Self, $crate::description::shape::Misfit> {
+            fn read(value: &$crate::description::shape::Value) -> Result<Self, $crate::description::shape::Misfit> {
                 match value.as_str() {
                     $( Some($text) => Ok($name::$word), )*
                     _ => Err($crate::description::shape::misfit(value, "a word")),
@@ -204,8 +311,14 @@ macro_rules! words {
             }
         }
     };
+    ($(#[$meta:meta])* $name:ident { $( $(#[$word_meta:meta])* $word:ident = $text:literal, )* }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $( $(#[$word_meta])* $word, )* }
+
+        $crate::words! { impl $name { $( $word = $text, )* } }
+    };
 }
-pub(crate) use words;
 
 /// The message that a value is not what is needed.
 pub fn misfit(value: &Value, needed: &str) -> Misfit {
@@ -225,18 +338,9 @@ pub fn with_keys(value: &Value, title: &str, keys: &[Key]) -> Result<(), Misfit>
     }
 }
 
-/// Reads the value of a key.
-///
-/// # Errors
-/// As [`Shape::read`].
-pub fn of_key<T: Shape>(value: &Value, key: &str) -> Result<T, Misfit> {
-    let value = value.get(key).unwrap_or(&Value::Null);
-    T::read(value).map_err(|misfit| format!("{key}: {misfit}"))
-}
-
 /// Reports unknown, missing and empty keys, and looks at the values of the others.
 pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
-    check_keys(R::TITLE, R::KEYS, at, problems);
+    check_keys(R::TITLE, &R::keys(), at, problems);
 }
 
 /// [`check_record`] of the record with this title and these keys.
@@ -420,6 +524,14 @@ fn is_number(text: &str) -> bool {
 
 impl<T: Shape> Shape for Option<T> {
     const OPTIONAL: bool = true;
+    fn unit() -> String {
+        T::unit()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        T::schema(to)
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         T::check(at, problems);
     }
@@ -433,6 +545,14 @@ impl<T: Shape> Shape for Option<T> {
 }
 
 impl<T: Shape> Shape for Vec<T> {
+    fn unit() -> String {
+        T::unit()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        list_of(T::schema(to))
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         let Kind::List(items) = &at.node.kind else {
             problems.add(at.problem(
@@ -453,6 +573,10 @@ impl<T: Shape> Shape for Vec<T> {
 }
 
 impl Shape for String {
+    fn schema(_: &mut Schema) -> Value {
+        typed("string")
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         if at.node.article() != "a text" {
             problems.add(at.problem(
@@ -474,6 +598,10 @@ impl Shape for String {
 }
 
 impl Shape for u32 {
+    fn schema(_: &mut Schema) -> Value {
+        typed("integer")
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         let whole = match &at.node.kind {
             Kind::Scalar { text, .. } => text.parse::<u32>().is_ok(),
@@ -497,6 +625,10 @@ impl Shape for u32 {
 }
 
 impl Shape for bool {
+    fn schema(_: &mut Schema) -> Value {
+        typed("boolean")
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         if at.node.article() != "true or false" {
             problems.add(at.problem(
@@ -526,6 +658,14 @@ impl<T> Default for Named<T> {
 }
 
 impl<T: Shape> Shape for Named<T> {
+    fn unit() -> String {
+        T::unit()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        mapping_of(T::schema(to))
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         let Kind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(

@@ -1,8 +1,10 @@
 //! Short forms as written: one entry that stands for several. [`expand`](super::expand) writes them out before values
 //! are read, so that only the long form is read.
 
+use super::measure::{Angle, Length, Mass};
 use super::place::At;
-use super::quantity::Quantity;
+use super::quantity::{Number, Quantity};
+use super::schema::{Schema, any_of, list_of, typed};
 use super::shape::{Misfit, Problems, Record, Shape, check_record, misfit, record, words};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -11,21 +13,21 @@ use std::ops::Deref;
 record! {
     /// How the names and the places of two sides correspond.
     Mirror as "a mirror" {
-        /// Word in the names of the side that is written.
-        from: Option<String>,
-        /// Word in its place in the names of the other side.
-        to: Option<String>,
-        /// The axis that is reversed.
-        axis: Option<LongAxis>,
+        /// word in the names of the written entries
+        from: Option<String> = "`left`",
+        /// word in the names of the images
+        to: Option<String> = "`right`",
+        /// the axis that is reversed: `x`, `y` or `z`
+        axis: Option<LongAxis> = "`y`",
     }
 }
 
 record! {
     /// A file that is read with another name for its system.
     Instance as "an instance" {
-        /// The file, relative to this one.
+        /// the file, relative to this one
         file: String,
-        /// Name of its system here.
+        /// name of this instance of its system
         system: String,
     }
 }
@@ -33,9 +35,9 @@ record! {
 record! {
     /// A person as a system.
     Person as "a person" {
-        /// Who it is.
+        /// [who it is](#a-human)
         human: Human,
-        /// Name of the system.
+        /// name of the system
         system: String,
     }
 }
@@ -43,22 +45,25 @@ record! {
 record! {
     /// Size and posture of a person.
     Human as "a human" {
-        /// A usual size by its name.
+        /// an adult, `male-50` (1.753 m, 77.7 kg), `male-95` (1.877 m, 101.2 kg) or `female-5` (1.501 m, 49 kg); an
+        /// adult with the masses of a crash dummy, `hybrid-3-50` (78.2 kg) or `hybrid-3-5` (49 kg); a child, `child-6`
+        /// (1.143 m, 23.4 kg) or `child-3` (0.945 m, 15.5 kg)
         like: Option<HumanName>,
-        /// The sex that the data are of.
+        /// `f` or `m`: which data
         sex: Option<HumanSex>,
-        /// From sole to vertex \[m\].
-        stature: Option<Quantity>,
-        /// Of the whole body \[kg\].
-        mass: Option<Quantity>,
-        /// Of stature and of mass, from 1 to 99.
+        /// from sole to vertex, 1.40 to 2.10 m
+        stature: Option<Number<Length>>,
+        /// of the whole body, 15 to 45 kg/m² times the squared stature
+        mass: Option<Number<Mass>>,
+        /// of stature and of mass, 1 to 99, of [ANSUR II](humans.md): soldiers
         percentile: Option<Quantity>,
-        /// How the body is placed at the start.
-        posture: Option<HumanPosture>,
-        /// Other angles than those of the posture.
-        angles: Option<HumanAngles>,
-        /// Where the elastic torques of spine and neck are 0.
-        neutral: Option<HumanNeutral>,
+        /// `standing`, or `seated`: thighs forward, shanks down
+        posture: Option<HumanPosture> = "`standing`",
+        /// [angles](#the-angles-of-a-human) of the trunk and of joints
+        angles: Option<HumanAngles> = "those of the posture",
+        /// where the elastic torques of spine and neck are 0: in the `posture` with its `angles`, or `upright` whatever
+        /// these are; a `start` of the system does not move it
+        neutral: Option<HumanNeutral> = "`posture`",
     }
 }
 
@@ -75,22 +80,22 @@ words! {
 record! {
     /// Angles about y of the joints of a person, both sides alike.
     HumanAngles as "the angles of a human" {
-        /// The trunk against the vertical.
-        trunk: Option<Quantity>,
-        /// The head against the trunk.
-        head: Option<Quantity>,
-        /// The upper arms against the trunk.
-        upper_arms: Option<Quantity>,
-        /// The forearms against the upper arms.
-        forearms: Option<Quantity>,
-        /// The hands against the forearms.
-        hands: Option<Quantity>,
-        /// The thighs against the trunk.
-        thighs: Option<Quantity>,
-        /// The shanks against the thighs.
-        shanks: Option<Quantity>,
-        /// The feet against the shanks.
-        feet: Option<Quantity>,
+        /// pelvis, abdomen and thorax against the vertical
+        trunk: Option<Number<Angle>> = "0",
+        /// against the trunk
+        head: Option<Number<Angle>> = "0",
+        /// against the trunk
+        upper_arms: Option<Number<Angle>> = "0, seated −30°",
+        /// against the upper arms
+        forearms: Option<Number<Angle>> = "0, seated −60°",
+        /// against the forearms
+        hands: Option<Number<Angle>> = "0",
+        /// against the trunk
+        thighs: Option<Number<Angle>> = "0, seated −90°",
+        /// against the thighs
+        shanks: Option<Number<Angle>> = "0, seated 90°",
+        /// against the shanks
+        feet: Option<Number<Angle>> = "0",
     }
 }
 
@@ -137,20 +142,21 @@ words! {
 record! {
     /// A part of a car by name.
     Part as "a part" {
-        /// Which part.
+        /// `cushion`, `seat`, `knee-bolster` or `steering-column`
         part: PartName,
-        /// Begins the names of its surfaces, curves and contacts.
+        /// begins the names of its surfaces, curves and contacts
         name: String,
-        /// The vehicle that it is on, or `frame`.
+        /// the vehicle that it is on, or `frame`
         on: String,
-        /// Where it is.
-        at: Vec<Quantity>,
-        /// What it leans by.
-        angle: Option<Quantity>,
-        /// Systems of the people who meet it.
+        /// where it is, in the frame of the vehicle: `[x, z]` in the plane, `[x, y, z]` in space; numbers, no
+        /// parameters
+        at: Vec<Number<Length>>,
+        /// the angle that it leans by; a number, no parameter
+        angle: Option<Number<Angle>> = "as in the table",
+        /// systems of the people who meet it
         against: Option<Vec<String>>,
-        /// Factor on its forces.
-        times: Option<Quantity>,
+        /// factor on its forces: a number or the name of a parameter
+        times: Option<Quantity> = "1",
     }
 }
 
@@ -173,6 +179,15 @@ words! {
 pub struct Include;
 
 impl Shape for Include {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([
+            typed("string"),
+            Person::schema(to),
+            Part::schema(to),
+            Instance::schema(to),
+        ])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) if at.node.get("human").is_some() => check_record::<Person>(at, problems),
@@ -199,6 +214,11 @@ impl<T> Deref for Each<T> {
 }
 
 impl<T: Shape> Shape for Each<T> {
+    fn schema(to: &mut Schema) -> Value {
+        let one = T::schema(to);
+        any_of([one.clone(), list_of(one)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         let Kind::List(items) = &at.node.kind else {
             return T::check(at, problems);
@@ -226,6 +246,10 @@ impl<R> Deref for ByName<R> {
 }
 
 impl<R: Record + Shape> Shape for ByName<R> {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([R::schema(to), Each::<String>::schema(to)])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) => check_record::<R>(at, problems),

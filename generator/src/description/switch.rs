@@ -1,52 +1,53 @@
 //! Switches as written: what makes them fire.
 
+use super::measure::{OfTheQuantity, Time};
 use super::output::{Axis, Component};
 use super::point::Point;
-use super::quantity::Quantity;
+use super::quantity::Number;
 use super::shape::record;
 
 record! {
     /// Something that happens once, and from then on has happened.
     Switch as "a switch" {
-        /// Name, unique among the switches.
+        /// name, unique among the switches
         switch: String,
-        /// What makes it fire.
+        /// [what makes it fire](#a-trigger)
         when: Trigger,
-        /// Time from there until it acts \[s\].
-        after: Option<Quantity>,
+        /// time from the trigger until the switch acts
+        after: Option<Number<Time>> = "0",
     }
 }
 
 record! {
     /// A time, or a quantity as of an output that passes a threshold.
     Trigger as "a trigger" {
-        /// The time \[s\].
-        time: Option<Quantity>,
-        /// What is looked at, as in an output.
+        /// fires at this time of the run
+        time: Option<Number<Time>>,
+        /// the thing that has the quantity, as in an output
         of: Option<String>,
-        /// What of it.
+        /// which quantity, as in an output
         what: Option<String>,
-        /// The point of an element, local frame \[m\].
-        at: Option<Point>,
-        /// Which component of a vector.
-        component: Option<Component>,
-        /// The body along whose axes: `frame`, `local`, a vehicle or an element.
-        axes: Option<String>,
-        /// The body that the observer rides on.
-        relative_to: Option<String>,
-        /// Of a joint, a contact or a belt: the body on which the force acts.
-        on: Option<String>,
-        /// Of a belt that runs through rings: which segment, counted from its end `from`.
+        /// as in an output
+        at: Option<Point> = "`cg`",
+        /// as in an output
+        component: Option<Component> = "`resultant`",
+        /// as in an output
+        axes: Option<String> = "absolute",
+        /// as in an output
+        relative_to: Option<String> = "`frame`",
+        /// as in an output
+        on: Option<String> = "the first body",
+        /// as in an output
         segment: Option<u32>,
-        /// Of a belt that runs through rings: which ring.
+        /// as in an output
         ring: Option<String>,
-        /// In space: which relative rotation of a joint.
-        about: Option<Axis>,
-        /// Of a joint with several freedoms of its own: which.
+        /// as in an output
+        about: Option<Axis> = "none in the plane",
+        /// as in an output
         freedom: Option<String>,
-        /// Fires when the quantity is larger than this.
-        above: Option<Quantity>,
-        /// Fires when the quantity is smaller than this.
-        below: Option<Quantity>,
+        /// fires when the quantity is larger than this
+        above: Option<Number<OfTheQuantity>>,
+        /// fires when the quantity is smaller than this
+        below: Option<Number<OfTheQuantity>>,
     }
 }

@@ -1,9 +1,11 @@
 //! Systems as written: trees of elements, their reference joints, where they start.
 
-use super::curve::Function;
+use super::curve::OverTime;
 use super::element::{Anatomy, Element};
+use super::measure::{Acceleration, Angle, Coordinate, CoordinateRate, Length, Rate, Speed};
 use super::place::At;
-use super::quantity::{OneOrThree, Quantity};
+use super::quantity::{Number, OneOrThree};
+use super::schema::{Schema, any_of, words};
 use super::shape::{Misfit, Named, Problems, Shape, check_record, check_word_or, record};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -11,58 +13,73 @@ use serde_yaml::Value;
 record! {
     /// A tree of elements.
     System as "a system" {
-        /// Name, unique among the systems.
+        /// name, unique among the systems
         name: String,
-        /// What the reference joint does.
-        reference: Option<Reference>,
-        /// Its elements; left out where an included file describes the system.
-        elements: Option<Vec<Element>>,
-        /// Which axes of its elements are forward and up, where they are not x and z.
-        anatomy: Option<Anatomy>,
-        /// Where it starts.
-        start: Option<Start>,
+        /// `free`, `fixed`, a [prescribed](#a-prescribed-reference) motion, or a [vehicle](#a-reference-on-a-vehicle)
+        /// that it is attached to
+        reference: Option<Reference> = "`free`",
+        /// list of [elements](#an-element), in any order; left out only where an included file describes the system
+        elements: Option<Vec<Element>> = "those included",
+        /// which axes of its elements are [forward and up](#an-anatomy)
+        anatomy: Option<Anatomy> = "x forward, z up",
+        /// [initial state](#a-start)
+        start: Option<Start> = "at rest in the origin",
     }
 }
 
 record! {
     /// Initial state.
     Start as "a start" {
-        /// Position of the reference joint, absolute frame \[m\].
-        position: Option<Vec<Quantity>>,
-        /// Velocity of the reference joint, absolute frame \[m/s\].
-        velocity: Option<Vec<Quantity>>,
-        /// Absolute angles by element \[rad\].
-        angles: Option<Named<OneOrThree>>,
-        /// Angular velocities by element, absolute axes \[rad/s\].
-        rates: Option<Named<OneOrThree>>,
-        /// Coordinates of joints with freedoms of their own, by element \[rad\] or \[m\].
-        joints: Option<Named<OneOrThree>>,
-        /// Their rates \[rad/s\] or \[m/s\].
-        joint_rates: Option<Named<OneOrThree>>,
+        /// of the reference joint, absolute frame
+        position: Option<Vec<Number<Length>>> = "the origin",
+        /// of a free or prescribed reference joint, absolute frame
+        velocity: Option<Vec<Number<Speed>>> = "0",
+        /// by element, absolute: one angle in the plane, `[φ1, φ2, φ3]` in space
+        angles: Option<Named<OneOrThree<Number<Angle>>>> = "0",
+        /// by element: one rate in the plane, the angular velocity `[x, y, z]` in absolute axes in space
+        rates: Option<Named<OneOrThree<Number<Rate>>>> = "0",
+        /// by element: the coordinates of its [joint](#a-joint), relative to its carrier; one, or a list in the order
+        /// of the freedoms
+        joints: Option<Named<OneOrThree<Number<Coordinate>>>> = "0",
+        /// by element: the rates of the same
+        joint_rates: Option<Named<OneOrThree<Number<CoordinateRate>>>> = "0",
     }
 }
 
 record! {
     /// A prescribed motion of the reference joint.
     Prescribed as "a prescribed reference" {
-        /// From the start, per absolute axis \[m\]: 0 or a smooth curve of time.
-        displacement: Option<Vec<Function>>,
-        /// Per absolute axis \[m/s\]: a number or a curve of time.
-        velocity: Option<Vec<Function>>,
-        /// Per absolute axis \[m/s²\]: a number or a curve of time.
-        acceleration: Option<Vec<Function>>,
-        /// Whether it stays, along each axis, as soon as its velocity is 0: where the acceleration is given.
-        stops: Option<bool>,
+        /// from the start, per absolute axis: 0, or a curve of time (s → m) with `interpolate: cubic`
+        displacement: Option<Vec<OverTime<Length>>>,
+        /// per absolute axis: a number, or a curve of time (s → m/s)
+        velocity: Option<Vec<OverTime<Speed>>>,
+        /// per absolute axis: a number, or a curve of time (s → m/s²)
+        acceleration: Option<Vec<OverTime<Acceleration>>>,
+        /// `true`: along each axis it comes to rest when its velocity reaches 0, as [a vehicle](#a-vehicle-that-stops) does;
+        /// only with `acceleration`
+        stops: Option<bool> = "`false`",
+    }
+}
+
+impl Prescribed {
+    /// How many of the three quantities are written.
+    pub fn count(&self) -> usize {
+        let written = [
+            self.displacement.is_some(),
+            self.velocity.is_some(),
+            self.acceleration.is_some(),
+        ];
+        written.into_iter().filter(|&is| is).count()
     }
 }
 
 record! {
     /// A reference joint that moves with a vehicle.
     Riding as "a reference on a vehicle" {
-        /// Name of the vehicle.
+        /// name of the vehicle
         on: String,
-        /// The point, local frame of the vehicle \[m\].
-        at: Vec<Quantity>,
+        /// the point, local frame of the vehicle
+        at: Vec<Number<Length>>,
     }
 }
 
@@ -83,6 +100,14 @@ pub enum Reference {
 const OTHERWISE: &str = "`{ on: VEHICLE, at: [x, z] }` moves with a vehicle, and `{ acceleration: [CURVE, 0] }` (or `velocity`, `displacement`) as prescribed";
 
 impl Shape for Reference {
+    fn schema(to: &mut Schema) -> Value {
+        any_of([
+            words(&["free", "fixed"]),
+            Riding::schema(to),
+            Prescribed::schema(to),
+        ])
+    }
+
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
             Kind::Map(_) if at.node.get("on").is_some() => check_record::<Riding>(at, problems),

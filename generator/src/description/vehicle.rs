@@ -1,28 +1,25 @@
 //! Vehicles as written: bodies whose motion is given.
 
-use super::curve::Function;
+use super::curve::OverTime;
+use super::measure::{Angle, Length, Speed};
 use super::mesh::Meshes;
-use super::quantity::{OneOrThree, Quantity};
-use super::shape::record;
+use super::quantity::{Number, OneOrThree};
+use super::shape::{Flat, record};
+use super::system::Prescribed;
 
 record! {
     /// A rigid body that moves as given.
     Vehicle as "a vehicle" {
-        /// Name, unique among the vehicles.
+        /// name, unique among the vehicles and the systems
         name: String,
-        /// Of its origin, from the start, per absolute axis \[m\]: 0 or a smooth curve of time.
-        displacement: Option<Vec<Function>>,
-        /// Of its origin, per absolute axis \[m/s\]: a number or a curve of time.
-        velocity: Option<Vec<Function>>,
-        /// Of its origin, per absolute axis \[m/s²\]: a number or a curve of time.
-        acceleration: Option<Vec<Function>>,
-        /// Whether it stays, along each axis, as soon as its velocity is 0: where the acceleration is given.
-        stops: Option<bool>,
-        /// Absolute angles \[rad\]: numbers or smooth curves of time.
-        angles: Option<OneOrThree<Function>>,
-        /// Where its origin starts.
-        start: Option<Start>,
-        /// How it is shown.
+        /// the motion of the origin of its frame
+        translation: Flat<Prescribed>,
+        /// absolute: one angle in the plane, the Bryant angles `[φ1, φ2, φ3]` in space; numbers, or curves of time (s →
+        /// rad) with `interpolate: cubic`
+        angles: Option<OneOrThree<OverTime<Angle>>> = "0",
+        /// [where it starts](#a-start-of-a-vehicle)
+        start: Option<Start> = "at rest in the origin",
+        /// the [meshes](#a-mesh) that it is shown with
         mesh: Option<Meshes>,
     }
 }
@@ -30,9 +27,9 @@ record! {
 record! {
     /// Where a vehicle starts.
     Start as "a start of a vehicle" {
-        /// Position of its origin, absolute frame \[m\].
-        position: Option<Vec<Quantity>>,
-        /// Velocity of its origin, absolute frame \[m/s\].
-        velocity: Option<Vec<Quantity>>,
+        /// of the origin of its frame, absolute frame
+        position: Option<Vec<Number<Length>>> = "the origin",
+        /// of the origin; only if the acceleration is given, or no motion at all
+        velocity: Option<Vec<Number<Speed>>> = "0",
     }
 }

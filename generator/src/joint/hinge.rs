@@ -15,7 +15,7 @@ use crate::model::resolve::joint::{Made, Spelling, Word};
 /// `hinge: y`
 pub(crate) const SPELLING: Spelling = Spelling {
     written: JointKey {
-        key: Key::optional::<Axis>("hinge"),
+        key: Key::of::<Option<Axis>>("hinge", "", "axis that the element turns about"),
         keys: &[],
         handed: &[],
         coordinates: &[Coordinate::Angle],

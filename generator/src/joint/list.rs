@@ -20,7 +20,11 @@ use crate::model::{FreedomKind, Number};
 /// Two hinges.
 pub(crate) const UNIVERSAL: Spelling = Spelling {
     written: JointKey {
-        key: Key::optional::<Vec<Axis>>("universal"),
+        key: Key::of::<Option<Vec<Axis>>>(
+            "universal",
+            "",
+            "in space: two axes that it turns about, the second after the first",
+        ),
         keys: &[],
         handed: &[],
         coordinates: &[Coordinate::Angle, Coordinate::Angle],
@@ -47,7 +51,11 @@ const TWO_AXES: &str = "in space write two axes: `universal: [x, y]`";
 /// A slider and a hinge with the same axis.
 pub(crate) const CYLINDER: Spelling = Spelling {
     written: JointKey {
-        key: Key::optional::<Axis>("cylinder"),
+        key: Key::of::<Option<Axis>>(
+            "cylinder",
+            "",
+            "in space: axis that it slides along and turns about",
+        ),
         keys: &[],
         handed: &[],
         coordinates: &[Coordinate::Length, Coordinate::Angle],
@@ -67,7 +75,11 @@ pub(crate) const CYLINDER: Spelling = Spelling {
 /// Two sliders in a plane and a hinge about its normal.
 pub(crate) const PLANAR: Spelling = Spelling {
     written: JointKey {
-        key: Key::optional::<Axis>("planar"),
+        key: Key::of::<Option<Axis>>(
+            "planar",
+            "",
+            "`x`, `y` or `z`: it slides along the two other axes and turns about this one",
+        ),
         keys: &[],
         handed: &[],
         coordinates: &[Coordinate::Length, Coordinate::Length, Coordinate::Angle],

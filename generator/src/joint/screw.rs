@@ -8,18 +8,26 @@
 //! H = (h e + e × r, e),   Ḣ v as for a slider by h θ, then a hinge;   work of a wrench (f, n) about the origin: h e · f + e · (n + r × f)
 
 use crate::description::joint::{Axis, Coordinate, JointKey};
-use crate::description::quantity::Quantity;
+use crate::description::measure::{LENGTH, Length};
+use crate::description::quantity::Number as WrittenNumber;
 use crate::description::shape::Key;
 use crate::model::resolve::joint::{Made, Spelling};
-use crate::model::resolve::quantity::LENGTH;
 use crate::model::{FreedomKind, Number};
 use std::f64::consts::TAU;
 
 /// `screw: z, pitch: 5 mm`
 pub(crate) const SPELLING: Spelling = Spelling {
     written: JointKey {
-        key: Key::optional::<Axis>("screw"),
-        keys: &[Key::optional::<Quantity>("pitch")],
+        key: Key::of::<Option<Axis>>(
+            "screw",
+            "",
+            "in space: axis that it turns about while it slides along it",
+        ),
+        keys: &[Key::of::<Option<WrittenNumber<Length>>>(
+            "pitch",
+            "",
+            "required for a screw: how far it slides in one turn; a negative pitch is left-handed",
+        )],
         handed: &["pitch"],
         coordinates: &[Coordinate::Angle],
     },

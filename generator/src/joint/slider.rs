@@ -14,7 +14,7 @@ use crate::model::resolve::joint::{Made, Spelling};
 /// `slider: x`
 pub(crate) const SPELLING: Spelling = Spelling {
     written: JointKey {
-        key: Key::optional::<Axis>("slider"),
+        key: Key::of::<Option<Axis>>("slider", "", "axis that it slides along"),
         keys: &[],
         handed: &[],
         coordinates: &[Coordinate::Length],

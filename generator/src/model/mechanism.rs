@@ -62,6 +62,17 @@ pub struct Parameter {
     pub max: Option<f64>,
     /// SI unit as text; "" if the number has none or it is unknown.
     pub unit: String,
+    /// True for an input: it may change during a run.
+    #[serde(skip_serializing_if = "is_false")]
+    pub input: bool,
+}
+
+#[expect(
+    clippy::trivially_copy_pass_by_ref,
+    reason = "serde hands out references"
+)]
+fn is_false(input: &bool) -> bool {
+    !input
 }
 
 /// Duration and sampling of a run.

@@ -331,6 +331,7 @@ impl Fresh<'_> {
             min: None,
             max: None,
             unit: String::new(),
+            input: false,
         });
         Number::Parameter(index)
     }

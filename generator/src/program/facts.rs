@@ -120,6 +120,8 @@ pub struct Adjustable {
     pub min: f64,
     /// Largest value allowed (SI), +∞ where unbounded.
     pub max: f64,
+    /// True for an input: it may change during a run.
+    pub input: bool,
 }
 
 impl Facts {
@@ -167,6 +169,7 @@ impl Facts {
                     default: parameter.default,
                     min: parameter.min.unwrap_or(f64::NEG_INFINITY),
                     max: parameter.max.unwrap_or(f64::INFINITY),
+                    input: parameter.input,
                 })
                 .collect(),
             breakpoints: breakpoints::constant(model, equations),

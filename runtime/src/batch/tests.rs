@@ -47,6 +47,7 @@ const fn parameter(name: &'static str, default: f64) -> ParameterInfo {
         default,
         min: f64::NEG_INFINITY,
         max: f64::INFINITY,
+        input: false,
     }
 }
 

@@ -20,6 +20,7 @@
 
 pub(crate) mod balance;
 mod diagnostic;
+mod driven;
 mod event;
 pub(crate) mod excursion;
 pub(crate) mod onset;
@@ -51,6 +52,7 @@ use crate::failure::Failure;
 use crate::{Differentiable, Direct, Model};
 use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
+pub use driven::Driven;
 #[cfg(feature = "std")]
 pub(crate) use event::{Bracket, Course, WIDTH, Zero, change, opposite};
 pub use run::Run;

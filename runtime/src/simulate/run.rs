@@ -1,5 +1,6 @@
 //! A run that its caller advances in portions.
 
+use super::driven::Driven;
 use super::time_loop::{End, TimeLoop};
 use super::watch::Watch;
 use super::{Observer, Receiver, Report, Sample, Settings, workspace_length};
@@ -105,6 +106,48 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         })
     }
 
+    /// A run whose inputs change: as [`Run::new`], of a model that [`Driven::set_inputs`] may change between two calls of
+    /// [`advance_to`](Self::advance_to). Each call ends a step at its time, so that inputs are held from one call to the
+    /// next. A sample is that just before its inputs change.
+    ///
+    /// ```
+    /// # use bryant_runtime::{Adjustable, Failure, Refusal, Settings, simulate::{Driven, Run, workspace_length}};
+    /// /// Holds the first coordinate at 0 by the only input, at 1 kHz.
+    /// fn hold(model: &mut dyn Adjustable<f64>) -> Result<(), Failure> {
+    ///     let info = model.info();
+    ///     let settings = Settings::of(info);
+    ///     let mut start = vec![0.0; info.state_length()];
+    ///     model.initial_state(&mut start);
+    ///     let mut memory = vec![0.0; workspace_length(info, &settings)];
+    ///     let mut parameters = vec![0.0; info.parameters.len()];
+    ///     let model = Driven::new(model, &mut parameters);
+    ///     let mut run = Run::driven(&mut memory, &model, &start, &settings, None)?;
+    ///     for millisecond in 0..1000 {
+    ///         let state = run.advance_to(1e-3 * f64::from(millisecond))?.state;
+    ///         let torque = -80.0 * state[0] - 4.0 * state[info.coordinates.len()];
+    ///         model.set_inputs(&[torque.clamp(-12.0, 12.0)]).expect("within its limits");
+    ///     }
+    ///     Ok(())
+    /// }
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Run::new`].
+    ///
+    /// # Panics
+    /// As [`Run::new`].
+    pub fn driven(
+        workspace: &'a mut [T],
+        model: &'a Driven<'a, T>,
+        initial: &[T],
+        settings: &Settings,
+        watch: Option<&'a mut Watch<'w, T>>,
+    ) -> Result<Self, Failure> {
+        let mut run = Run::new(workspace, model, initial, settings, watch)?;
+        run.time_loop.drive(model);
+        Ok(run)
+    }
+
     /// Advances the run to a time \[s\] from the start to the duration, and samples it there. The same time may be
     /// asked for again.
     ///
@@ -125,6 +168,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             });
         }
         self.time_loop.schedule.ask_for(t);
+        self.time_loop.control_at(t);
         T::march(self, &mut |_| ControlFlow::Break(()), None)?;
         Ok(self.time_loop.last_sample())
     }

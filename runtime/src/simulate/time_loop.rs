@@ -22,6 +22,7 @@ mod onset;
 mod sample;
 mod search;
 
+use super::driven::Driven;
 use super::event::{PLACES, WIDTH, inside};
 use super::schedule::{Grid, Schedule, to_meet};
 use super::standing::Standing;
@@ -137,6 +138,9 @@ pub(crate) fn epsilon_of<T: Real>() -> f64 {
 /// changing a bit of the results.
 pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     model: &'a dyn Dynamics<T>,
+    /// The model again, where its inputs may change; and the next time at which they may \[s\].
+    driven: Option<&'a Driven<'a, T>>,
+    control: f64,
     info: &'static Info,
     f: Evaluator<'a, T>,
     settings: Settings,
@@ -246,6 +250,8 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         };
         TimeLoop {
             model,
+            driven: None,
+            control: f64::INFINITY,
             info,
             f: Evaluator::new(model, workspace.part(state)),
             settings: *settings,
@@ -309,6 +315,32 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
     }
 
+    /// Lets the inputs of the model change between steps.
+    pub fn drive(&mut self, driven: &'a Driven<'a, T>) {
+        self.driven = Some(driven);
+    }
+
+    /// If inputs may change: the next step ends at this time at the latest, where they do.
+    pub fn control_at(&mut self, t: f64) {
+        if self.driven.is_some() {
+            self.control = t;
+        }
+    }
+
+    /// The next kink in time after `t`, change of inputs, or end of the run.
+    fn breakpoint_after(&self, t: f64) -> f64 {
+        let kink = self.schedule.kink_after(self.model, t);
+        match self.control > t {
+            true => kink.min(self.control),
+            false => kink,
+        }
+    }
+
+    /// True if inputs have changed since the last call.
+    fn driven_otherwise(&self) -> bool {
+        self.driven.is_some_and(Driven::take_change)
+    }
+
     /// The statistics of the run so far.
     pub fn report(&self) -> Report {
         Report {
@@ -330,8 +362,11 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         }
         loop {
             self.deliver_within(step, sink)?;
-            if let Some(landed) = self.landed.take() {
-                self.leave(step, landed)?;
+            match self.landed.take() {
+                Some(landed) => self.leave(step, landed)?,
+                // nothing has moved yet
+                None if self.driven_otherwise() => self.open(step)?,
+                None => {}
             }
             if self.report.t >= self.settings.duration {
                 return Ok(());
@@ -356,7 +391,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         self.f.at(start, self.y, self.rate);
         self.check_rate()?;
 
-        self.breakpoint = self.schedule.kink_after(self.model, start);
+        self.breakpoint = self.breakpoint_after(start);
         self.f.latest = self.breakpoint.next_down();
         self.h = match self.settings.method.pace {
             Pace::Fixed(step) => step,
@@ -437,7 +472,13 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if let (Some(watch), Some(energy)) = (&mut self.watch, energy) {
             watch.close(landing.begin, self.y, energy);
         }
-        let renewed = self.renew(true);
+        let mut renewed = self.renew(true);
+        if self.driven_otherwise() {
+            // what depends on inputs has jumped
+            self.arrive_at(self.report.t, State::Reached, true);
+            self.renew(true);
+            renewed = Renewed::Other;
+        }
         self.onsets.advance();
         if let (Some(watch), true) = (&mut self.watch, renewed != Renewed::No) {
             watch.renew(landing.begin);
@@ -821,7 +862,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
                 return Ok(false);
             }
             // the derivative changes at the kink
-            self.breakpoint = self.schedule.kink_after(self.model, self.report.t);
+            self.breakpoint = self.breakpoint_after(self.report.t);
             self.f.latest = self.breakpoint.next_down();
             self.controller = Controller::new(step.order_of_estimate());
             self.approach = None;

@@ -1,23 +1,14 @@
 //! Reads `design`, `runs`, `seed` and `parameters`, which define the rows of a study.
 
 use super::distribution;
-use super::reader::{self, Reader, optional};
+use super::keys::Design;
+use super::reader::{self, Reader, entries, optional, word};
 use super::rows;
 use crate::design::most_parameters;
 use crate::facts::{ModelFacts, ParameterFact};
 use crate::study::{Levels, MOST_ROWS, Plan, RandomDesign, Varied};
 use bryant_generator::description::place::At;
 use std::path::Path;
-
-/// The names of the designs.
-const DESIGNS: [&str; 6] = [
-    "grid",
-    "list",
-    "latin hypercube",
-    "sobol",
-    "monte carlo",
-    "saltelli",
-];
 
 /// The rows that the file describes.
 pub struct Planned {
@@ -33,10 +24,9 @@ pub fn read(
     facts: &ModelFacts,
     directory: &Path,
 ) -> Option<Planned> {
-    let at = reader.required(root, "design", &format!("one of {}", DESIGNS.join(", ")))?;
-    let design = reader.word(at, "design", &DESIGNS)?;
+    let design: Design = word(optional(root, "design")?)?;
     let unused: &[(&str, &str)] = match design {
-        "grid" => &[
+        Design::Grid => &[
             (
                 "runs",
                 "a grid has as many runs as its steps and values make",
@@ -44,7 +34,7 @@ pub fn read(
             ("seed", "nothing in a grid is random"),
             ("rows", "rows are those of `design: list`"),
         ],
-        "list" => &[
+        Design::List => &[
             ("runs", "a list has as many runs as rows"),
             ("seed", "nothing in a list is random"),
             (
@@ -56,17 +46,17 @@ pub fn read(
     };
     for (key, help) in unused {
         if let Some(at) = optional(root, key) {
-            let message = format!("`{key}` has no meaning with `design: {design}`");
+            let message = format!("`{key}` has no meaning with `design: {}`", design.word());
             reader.add(at.key_problem(message, format!("remove it: {help}")));
         }
     }
     match design {
-        "grid" => grid(reader, root, facts),
-        "list" => rows::read(reader, root, facts, directory),
-        "latin hypercube" => random(reader, root, facts, RandomDesign::LatinHypercube),
-        "sobol" => random(reader, root, facts, RandomDesign::Sobol),
-        "monte carlo" => random(reader, root, facts, RandomDesign::MonteCarlo),
-        _ => random(reader, root, facts, RandomDesign::Saltelli),
+        Design::Grid => grid(reader, root, facts),
+        Design::List => rows::read(reader, root, facts, directory),
+        Design::LatinHypercube => random(reader, root, facts, RandomDesign::LatinHypercube),
+        Design::Sobol => random(reader, root, facts, RandomDesign::Sobol),
+        Design::MonteCarlo => random(reader, root, facts, RandomDesign::MonteCarlo),
+        Design::Saltelli => random(reader, root, facts, RandomDesign::Saltelli),
     }
 }
 
@@ -96,7 +86,7 @@ fn parameters<'a, 'f>(
         "parameters",
         "name the parameters that differ between runs, with their ranges",
     )?;
-    let entries = reader.entries(at, "`parameters`");
+    let entries = entries(at);
     if entries.is_empty() {
         reader.add(at.problem(
             "no parameter is varied",

@@ -1,6 +1,6 @@
 //! Reads the value of a parameter in `parameters`: an interval, a distribution, or a list of values.
 
-use super::reader::{Reader, optional};
+use super::reader::{Reader, items, optional};
 use crate::distribution::Distribution;
 use crate::facts::ParameterFact;
 use crate::normal;
@@ -13,13 +13,8 @@ const HELP: &str = "write `{ from: a, to: b }`, `{ normal: { mean: m, deviation:
 
 /// The values of a parameter in a grid.
 pub fn levels(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Levels> {
-    if !reader.record(
-        at,
-        "a parameter of a grid",
-        &["from", "to", "steps", "values"],
-    ) {
-        return None;
-    }
+    let keys = ["from", "to", "steps", "values"];
+    reader.only(at, "a parameter of a grid", &keys);
     if optional(at, "values").is_some() {
         let values = values(reader, at, fact)?;
         return allowed(reader, at, fact, &values).then_some(Levels::Values(values));
@@ -69,9 +64,7 @@ pub fn read(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Distrib
         reader.add(steps.key_problem("`steps` has no meaning with this design", help));
         return None;
     }
-    if !reader.record(at, "the distribution", keys) {
-        return None;
-    }
+    reader.only(at, "the distribution", keys);
     let distribution = match kinds[0] {
         "from" => {
             let [from, to] = interval(reader, at, fact)?;
@@ -110,13 +103,7 @@ fn interval(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<[f64; 2
 }
 
 fn triangular(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Distribution> {
-    if !reader.record(at, "`triangular`", &["from", "mode", "to"]) {
-        return None;
-    }
-    let help = "a triangle is `{ from: a, mode: m, to: b }`";
-    let mode = reader
-        .required(at, "mode", help)
-        .and_then(|at| reader.quantity(at, &fact.unit));
+    let mode = optional(at, "mode").and_then(|at| reader.quantity(at, &fact.unit));
     let [from, to] = interval(reader, at, fact)?;
     let mode = mode?;
     if (from..=to).contains(&mode) {
@@ -132,7 +119,7 @@ fn triangular(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Distr
 
 fn values(reader: &Reader, at: At<'_>, fact: &ParameterFact) -> Option<Vec<f64>> {
     let at = at.key("values");
-    let items = reader.items(at, "`values`");
+    let items = items(at);
     if items.is_empty() {
         reader.add(at.problem("there are no values", "write at least one"));
         return None;
@@ -149,7 +136,7 @@ fn weights(reader: &Reader, at: At<'_>, count: usize) -> Option<Vec<f64>> {
     let Some(at) = optional(at, "weights") else {
         return Some(vec![1.0 / count as f64; count]);
     };
-    let items = reader.items(at, "`weights`");
+    let items = items(at);
     let read: Vec<_> = items
         .iter()
         .map(|at| reader.positive(*at, "", "a weight"))
@@ -172,19 +159,12 @@ fn bell(reader: &Reader, at: At<'_>, fact: &ParameterFact, kind: &str) -> Option
         ("median", "")
     };
     let inner = at.key(kind);
-    if !reader.record(inner, &format!("`{kind}`"), &[middle, "deviation"]) {
-        return None;
-    }
-    let help = format!("write `{kind}: {{ {middle}: m, deviation: s }}`");
-    let centre = reader
-        .required(inner, middle, &help)
-        .and_then(|at| match kind {
-            "normal" => reader.quantity(at, &fact.unit),
-            _ => reader.positive(at, &fact.unit, "the median"),
-        });
-    let deviation = reader
-        .required(inner, "deviation", &help)
-        .and_then(|at| reader.positive(at, unit, "the deviation"));
+    let centre = optional(inner, middle).and_then(|at| match kind {
+        "normal" => reader.quantity(at, &fact.unit),
+        _ => reader.positive(at, &fact.unit, "the median"),
+    });
+    let deviation = optional(inner, "deviation");
+    let deviation = deviation.and_then(|at| reader.positive(at, unit, "the deviation"));
     let end = |key| match optional(at, key) {
         Some(at) => reader.quantity(at, &fact.unit).map(Some),
         None => Some(None),

@@ -6,6 +6,7 @@
 
 mod design;
 mod distribution;
+pub mod keys;
 mod reader;
 mod responses;
 mod rows;
@@ -14,27 +15,13 @@ mod settings;
 use crate::facts::ModelFacts;
 use crate::response::Response;
 use crate::study::{RunSettings, Study};
-use bryant_generator::description::tree::Source;
+use bryant_generator::description::tree::{Node, Source};
 use bryant_generator::description::what;
 use bryant_generator::{Diagnostic, Diagnostics};
-use reader::{Reader, optional};
+pub use keys::Keys;
+use reader::{Reader, optional, text};
 pub(crate) use responses::sampling;
 use std::path::Path;
-
-/// The keys of a study.
-pub const KEYS: [&str; 11] = [
-    "model",
-    "design",
-    "runs",
-    "seed",
-    "parameters",
-    "fixed",
-    "rows",
-    "run",
-    "responses",
-    "keep",
-    "tables",
-];
 
 /// A study file that is valid YAML and names its model.
 #[derive(Debug)]
@@ -63,15 +50,18 @@ impl StudyFile {
             let message = format!("this is {what}, not a study");
             return Err(Diagnostic::of_file(name, message, help).into());
         }
-        let reader = Reader::default();
         let root = source.at();
-        let model = match reader.required(root, "model", BEGIN) {
-            Some(at) => reader.text(at),
-            None => None,
-        };
-        match model {
-            Some(model) => Ok(StudyFile { source, model }),
-            None => Err(reader.problems()),
+        let model = root.node.get("model").and_then(Node::text);
+        match model.filter(|model| !model.trim().is_empty()) {
+            Some(model) => Ok(StudyFile {
+                model: model.to_owned(),
+                source,
+            }),
+            None => {
+                let reader = Reader::of::<Keys>(root);
+                reader.add(root.problem("the study names no model", BEGIN));
+                Err(reader.problems())
+            }
         }
     }
 
@@ -79,7 +69,7 @@ impl StudyFile {
     /// rows itself.
     pub fn rows_from(&self) -> Option<String> {
         let rows = optional(self.source.at(), "rows")?;
-        Reader::default().text(optional(rows, "csv")?)
+        text(optional(rows, "csv")?).map(str::to_owned)
     }
 
     /// The responses of the study and the time between their samples \[s\], for one run of a model with this duration
@@ -93,8 +83,8 @@ impl StudyFile {
         duration: f64,
         sampling: Option<f64>,
     ) -> Result<(Vec<Response>, f64), Diagnostics> {
-        let reader = Reader::default();
         let root = self.source.at();
+        let reader = Reader::of::<Keys>(root);
         let of_study = settings::run(&reader, root, &facts.run);
         let sampling = sampling.or(of_study.sampling);
         let run = RunSettings {
@@ -114,7 +104,8 @@ impl StudyFile {
 
     /// The duration of the study's runs \[s\], if the study gives one.
     pub fn duration(&self, facts: &ModelFacts) -> Option<f64> {
-        settings::run(&Reader::default(), self.source.at(), &facts.run).duration
+        let root = self.source.at();
+        settings::run(&Reader::of::<Keys>(root), root, &facts.run).duration
     }
 
     /// The study, checked against its model. Relative paths begin at `directory`, which is that of the file.
@@ -122,16 +113,15 @@ impl StudyFile {
     /// # Errors
     /// All problems at once.
     pub fn resolve(&self, facts: &ModelFacts, directory: &Path) -> Result<Study, Diagnostics> {
-        let reader = Reader::default();
         let root = self.source.at();
-        reader.record(root, "a study", &KEYS);
+        let reader = Reader::of::<Keys>(root);
         let plan = design::read(&reader, root, facts, directory);
         let fixed = settings::fixed(&reader, root, facts);
         let run = settings::run(&reader, root, &facts.run);
         let responses = responses::read(&reader, root, facts, &run);
         let rows = plan.as_ref().map(|plan| plan.rows);
         let keep = settings::keep(&reader, root, facts, rows);
-        let tables = settings::tables(&reader, root);
+        let tables = settings::tables(root);
         if let Some(plan) = &plan {
             settings::distinct(&reader, root, &plan.varied, &fixed, &responses);
         }

@@ -4,106 +4,64 @@ use crate::facts::ParameterFact;
 use crate::quantity::strict;
 use crate::study::Varied;
 use bryant_generator::description::place::At;
+use bryant_generator::description::shape::{Problems, Shape};
 use bryant_generator::description::tree::{Kind, Node};
 use bryant_generator::diagnostic::{quoted, suggestion};
+use bryant_generator::read::LANGUAGE;
 use bryant_generator::{Diagnostic, Diagnostics};
-use std::cell::RefCell;
 
 /// Number up to which an `f64` represents every integer exactly.
 const EXACT: f64 = (1u64 << 53) as f64;
 
 /// Reads values and collects problems with them.
-#[derive(Debug, Default)]
-pub struct Reader(RefCell<Vec<Diagnostic>>);
+pub struct Reader(Problems);
 
 impl Reader {
-    /// Notes a problem.
+    /// Reads a file of this shape, whose misfits are collected.
+    pub fn of<R: Shape>(root: At<'_>) -> Reader {
+        let problems = Problems::new(LANGUAGE);
+        R::check(root, &problems);
+        Reader(problems)
+    }
+
+    /// Notes a problem, unless the shape of the same text is wrong already.
     pub fn add(&self, problem: Diagnostic) {
-        self.0.borrow_mut().push(problem);
+        if !self.0.has_at(&problem) {
+            self.0.add(problem);
+        }
     }
 
     /// True if there is no problem so far.
     pub fn is_sound(&self) -> bool {
-        self.0.borrow().is_empty()
+        self.0.count() == 0
     }
 
     /// All problems, in the order of the text.
     pub fn problems(self) -> Diagnostics {
-        let mut problems = self.0.into_inner();
+        let (mut problems, _) = self.0.into_parts();
         problems.sort_by_key(|p| (p.line, p.column));
         Diagnostics { problems }
     }
 
-    /// Checks that a value is a mapping with no other keys than `keys`.
-    pub fn record(&self, at: At<'_>, what: &str, keys: &[&str]) -> bool {
-        let Kind::Map(entries) = &at.node.kind else {
-            let message = format!("here stands {}, but {what} is a mapping", at.node.article());
-            let help = format!(
-                "write `{{ key: value, … }}` with keys of {}",
-                keys.join(", ")
-            );
-            self.add(at.problem(message, help));
-            return false;
-        };
-        for entry in entries.iter().filter(|e| !keys.contains(&e.key.as_str())) {
-            let message = format!("{what} has no key {}", quoted(&entry.key));
-            let help = suggestion(&entry.key, keys.iter().copied(), "");
-            self.add(at.key(&entry.key).key_problem(message, help));
-        }
-        true
-    }
-
-    /// The entries of a mapping, with their places.
-    pub fn entries<'a>(&self, at: At<'a>, what: &str) -> Vec<(&'a str, At<'a>)> {
-        match &at.node.kind {
-            Kind::Map(entries) => {
-                let place = |e: &'a bryant_generator::description::tree::Entry| {
-                    (e.key.as_str(), at.key(&e.key))
-                };
-                entries.iter().map(place).collect()
-            }
-            _ => {
-                let message = format!("here stands {}, but {what} is a mapping", at.node.article());
-                self.add(at.problem(message, "write `name: value` lines"));
-                Vec::new()
+    /// Reports keys of a mapping that this use of it does not have.
+    pub fn only(&self, at: At<'_>, what: &str, keys: &[&str]) {
+        for (key, at) in entries(at) {
+            if !keys.contains(&key) {
+                let message = format!("{what} has no key {}", quoted(key));
+                let help = suggestion(key, keys.iter().copied(), "");
+                self.add(at.key_problem(message, help));
             }
         }
     }
 
-    /// The entries of a list.
-    pub fn items<'a>(&self, at: At<'a>, what: &str) -> Vec<At<'a>> {
-        match &at.node.kind {
-            Kind::List(items) => (0..items.len()).map(|i| at.item(i)).collect(),
-            _ => {
-                let message = format!("here stands {}, but {what} is a list", at.node.article());
-                self.add(at.problem(message, "write `[a, b, …]`"));
-                Vec::new()
-            }
-        }
-    }
-
-    /// The value of a required key.
+    /// The value of a key that this use of a mapping needs.
     pub fn required<'a>(&self, at: At<'a>, key: &str, help: &str) -> Option<At<'a>> {
         let found = optional(at, key);
-        if found.is_none() {
+        if found.is_none() && at.node.get(key).is_none() {
             let message = format!("the key `{key}` is missing");
             self.add(at.problem(message, help));
         }
         found
-    }
-
-    /// A text, not empty.
-    pub fn text(&self, at: At<'_>) -> Option<String> {
-        match &at.node.kind {
-            Kind::Scalar { text, .. } if !at.node.is_null() && !text.trim().is_empty() => {
-                Some(text.clone())
-            }
-            _ => {
-                let message = format!("here stands {}, but a text is needed", at.node.article());
-                self.add(at.problem(message, "write a name"));
-                None
-            }
-        }
     }
 
     /// A quantity in SI units with the dimension of `unit`; a bare number is in `unit`.
@@ -184,31 +142,55 @@ impl Reader {
         }
     }
 
-    /// One of `words`.
-    pub fn word<'w>(&self, at: At<'_>, what: &str, words: &[&'w str]) -> Option<&'w str> {
-        self.word_or(at, what, words, |_| None)
-    }
-
     /// One of `words`; `meant` translates synonyms into one of them.
-    pub fn word_or<'w>(
+    pub fn word<'w>(
         &self,
         at: At<'_>,
         what: &str,
         words: &[&'w str],
         meant: impl Fn(&str) -> Option<&'static str>,
     ) -> Option<&'w str> {
-        let text = self.text(at)?;
+        let text = text(at)?;
         let found = words.iter().find(|word| **word == text).copied();
         if found.is_none() {
-            let message = format!("there is no {what} {}", quoted(&text));
-            let help = match meant(&text) {
+            let message = format!("there is no {what} {}", quoted(text));
+            let help = match meant(text) {
                 Some(word) => format!("did you mean {}?", quoted(word)),
-                None => suggestion(&text, words.iter().copied(), ""),
+                None => suggestion(text, words.iter().copied(), ""),
             };
             self.add(at.problem(message, help));
         }
         found
     }
+}
+
+/// The entries of a mapping, with their places.
+pub fn entries(at: At<'_>) -> Vec<(&str, At<'_>)> {
+    match &at.node.kind {
+        Kind::Map(entries) => {
+            let keys = entries.iter().map(|entry| entry.key.as_str());
+            keys.map(|key| (key, at.key(key))).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The entries of a list.
+pub fn items(at: At<'_>) -> Vec<At<'_>> {
+    match &at.node.kind {
+        Kind::List(items) => (0..items.len()).map(|i| at.item(i)).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// A text.
+pub fn text(at: At<'_>) -> Option<&str> {
+    at.node.text().filter(|text| !text.trim().is_empty())
+}
+
+/// One of the words of a key.
+pub fn word<W: Shape>(at: At<'_>) -> Option<W> {
+    W::read(&text(at)?.into()).ok()
 }
 
 /// The value of a key, `None` if the key is missing.

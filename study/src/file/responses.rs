@@ -1,6 +1,6 @@
 //! Reads `responses`: the numbers that are computed from each run.
 
-use super::reader::{Reader, optional};
+use super::reader::{Reader, items, optional, text};
 use crate::criteria;
 use crate::facts::ModelFacts;
 use crate::quantity::dimension;
@@ -13,13 +13,15 @@ use bryant_runtime::response::filter::Filter;
 
 /// Reads all responses; responses with a problem are left out, and the reader collects the problem.
 pub fn read(reader: &Reader, root: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
-    let help = "name what is read off each run, such as `- { of: OUTPUT, what: peak }`";
-    let Some(at) = reader.required(root, "responses", help) else {
+    let Some(at) = optional(root, "responses") else {
         return Vec::new();
     };
-    let items = reader.items(at, "`responses`");
-    if items.is_empty() && matches!(at.node.kind, Kind::List(_)) {
-        reader.add(at.problem("there are no responses", help));
+    let items = items(at);
+    if items.is_empty() {
+        reader.add(at.problem(
+            "there are no responses",
+            "name what is read off each run, such as `- { of: OUTPUT, what: peak }`",
+        ));
     }
     items
         .iter()
@@ -35,11 +37,8 @@ const ALL: &str = "all";
 
 /// The responses for injury criteria, of a model that names its regulation.
 fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
-    if !reader.record(at, "a criterion", &["criterion", "name"]) {
-        return Vec::new();
-    }
     let place = at.key("criterion");
-    let Some(word) = reader.text(place) else {
+    let Some(word) = text(place) else {
         return Vec::new();
     };
     let found = match (word == ALL, &facts.criteria) {
@@ -50,7 +49,7 @@ fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) 
         // for `all`, any name gives the message about what is missing
         _ => criteria::named(
             facts,
-            match word.as_str() {
+            match word {
                 ALL => criteria::CRITERIA[0].name,
                 word => word,
             },
@@ -77,13 +76,13 @@ fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) 
 
 /// The heading of a column; a problem is added if it is not valid.
 fn heading(reader: &Reader, at: At<'_>) -> Option<String> {
-    let name = reader.text(at)?;
+    let name = text(at)?;
     if name.contains(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')) {
         let message = "a name is a single line, the heading of a column";
         reader.add(at.problem(message, "write it without line breaks and tabs"));
         return None;
     }
-    Some(name)
+    Some(name.to_owned())
 }
 
 fn response(
@@ -92,29 +91,19 @@ fn response(
     facts: &ModelFacts,
     run: &RunSettings,
 ) -> Option<Response> {
-    let keys = ["name", "of", "what", "at", "duration", "filter"];
-    if !reader.record(at, "a response", &keys) {
-        return None;
-    }
-    let output = reader
-        .required(at, "of", "name an output of the model")
-        .and_then(|at| {
-            let name = reader.text(at)?;
-            let found = facts.output(&name);
-            if found.is_none() {
-                let message = format!("the model has no output {}", quoted(&name));
-                let names = facts.outputs.iter().map(|o| o.name.as_str());
-                reader.add(at.problem(
-                    message,
-                    suggestion(&name, names, "it has no outputs at all"),
-                ));
-            }
-            found
-        });
+    let output = optional(at, "of").and_then(|at| {
+        let name = text(at)?;
+        let found = facts.output(name);
+        if found.is_none() {
+            let message = format!("the model has no output {}", quoted(name));
+            let names = facts.outputs.iter().map(|o| o.name.as_str());
+            reader.add(at.problem(message, suggestion(name, names, "it has no outputs at all")));
+        }
+        found
+    });
     let words = NAMES.map(|(name, _)| name);
-    let word = reader
-        .required(at, "what", &format!("one of {}", words.join(", ")))
-        .and_then(|at| reader.word_or(at, "response", &words, meant))?;
+    let word = optional(at, "what");
+    let word = word.and_then(|at| reader.word(at, "response", &words, meant))?;
     let what = timed(reader, at, word, facts, run)?;
     let (index, output) = output?;
     if what.is_injury_criterion() && dimension(&output.unit) != dimension("m/s^2") {
@@ -138,7 +127,7 @@ fn response(
         Some(at) => {
             let names: Vec<String> = Filter::all().map(|filter| filter.to_string()).collect();
             let words: Vec<&str> = names.iter().map(String::as_str).collect();
-            Some(reader.word(at, "filter", &words)?.to_owned())
+            Some(reader.word(at, "filter", &words, |_| None)?.to_owned())
         }
     };
     let response = Response {

@@ -2,7 +2,7 @@
 //! `slack` or `slack [mm]`.
 
 use super::design::{Planned, known, within};
-use super::reader::{self, Reader};
+use super::reader::{self, Reader, entries, items, optional, text};
 use crate::facts::{ModelFacts, ParameterFact};
 use crate::quantity::strict;
 use crate::study::{Listed, Plan, Varied};
@@ -34,15 +34,14 @@ pub fn read(
     let at = reader.required(root, "rows", help)?;
     let (varied, values) = match &at.node.kind {
         Kind::Map(_) => {
-            reader.record(at, "`rows`", &["csv"]);
-            let at = reader.required(at, "csv", help)?;
-            let path = reader.text(at)?;
+            let at = optional(at, "csv")?;
+            let path = text(at)?;
             let table = Table {
                 reader,
                 at,
-                name: &path,
+                name: path,
             };
-            table.read(&directory.join(&path), facts)?
+            table.read(&directory.join(path), facts)?
         }
         _ => written(reader, at, facts)?,
     };
@@ -62,11 +61,11 @@ type Read = (Vec<Varied>, Vec<f64>);
 
 /// Reads rows that are written in the study. A row that leaves out a parameter takes its default value.
 fn written(reader: &Reader, at: At<'_>, facts: &ModelFacts) -> Option<Read> {
-    let items = reader.items(at, "`rows`");
+    let items = items(at);
     let mut sound = true;
     let mut varied: Vec<&ParameterFact> = Vec::new();
     for item in &items {
-        for (name, at) in reader.entries(*item, "a row") {
+        for (name, at) in entries(*item) {
             match known(reader, at, name, facts) {
                 Some(fact) if !varied.iter().any(|v| v.name == fact.name) => varied.push(fact),
                 Some(_) => {}

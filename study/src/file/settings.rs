@@ -1,12 +1,11 @@
 //! Reads `fixed`, `run`, `keep` and `tables`, and checks that no name is used twice.
 
 use super::design::known;
-use super::reader::{Reader, optional};
+use super::reader::{Reader, entries, items, optional, text, word};
 use crate::facts::{ModelFacts, OutputFact, RunFact};
 use crate::response::Response;
 use crate::study::{
-    Fixed, FixedSteps, Keep, KeptOutput, Method, OWN_COLUMNS, Precision, RunSettings, TableKind,
-    Varied,
+    Fixed, FixedSteps, Keep, KeptOutput, OWN_COLUMNS, RunSettings, TableKind, Varied,
 };
 use bryant_generator::description::place::At;
 use bryant_generator::diagnostic::{quoted, suggestion};
@@ -17,7 +16,7 @@ pub fn fixed(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Vec<Fixed> {
         return Vec::new();
     };
     let mut fixed = Vec::new();
-    for (name, at) in reader.entries(at, "`fixed`") {
+    for (name, at) in entries(at) {
         let Some(fact) = known(reader, at, name, facts) else {
             continue;
         };
@@ -37,25 +36,11 @@ pub fn fixed(reader: &Reader, root: At<'_>, facts: &ModelFacts) -> Vec<Fixed> {
     fixed
 }
 
-/// The keys of `run`.
-const RUN: [&str; 7] = [
-    "duration",
-    "accuracy",
-    "sampling",
-    "step",
-    "method",
-    "energy_limit",
-    "precision",
-];
-
 /// Settings of each run.
 pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
     let Some(at) = optional(root, "run") else {
         return RunSettings::default();
     };
-    if !reader.record(at, "`run`", &RUN) {
-        return RunSettings::default();
-    }
     let time = |key: &str, what: &str| reader.positive(optional(at, key)?, "s", what);
     let accuracy = optional(at, "accuracy").and_then(|at| {
         let value = reader.positive(at, "", "the accuracy")?;
@@ -74,12 +59,7 @@ pub fn run(reader: &Reader, root: At<'_>, model: &RunFact) -> RunSettings {
         sampling: time("sampling", "the time between samples"),
         step: steps(reader, at),
         energy_limit: energy_limit(reader, at),
-        precision: match optional(at, "precision")
-            .and_then(|at| reader.word(at, "precision", &["double", "single"]))
-        {
-            Some("single") => Precision::Single,
-            _ => Precision::Double,
-        },
+        precision: optional(at, "precision").and_then(word).unwrap_or_default(),
     };
     let step = settings.step.map(|steps| steps.length);
     let duration = settings.duration.unwrap_or(model.duration);
@@ -107,9 +87,7 @@ fn energy_limit(reader: &Reader, at: At<'_>) -> Option<f64> {
 
 /// Fixed steps.
 fn steps(reader: &Reader, at: At<'_>) -> Option<FixedSteps> {
-    let names = Method::ALL.map(Method::name);
-    let named = |at| reader.word(at, "method", &names);
-    let method = optional(at, "method").map(named);
+    let method = optional(at, "method");
     let Some(step) = optional(at, "step") else {
         if method.is_some() {
             let message = "a `method` is one of fixed steps, and there is no `step`";
@@ -128,10 +106,7 @@ fn steps(reader: &Reader, at: At<'_>) -> Option<FixedSteps> {
         ));
     }
     let length = reader.positive(step, "s", "the step")?;
-    let method = match method {
-        None => Method::default(),
-        Some(name) => Method::ALL.into_iter().find(|m| Some(m.name()) == name)?,
-    };
+    let method = method.and_then(word).unwrap_or_default();
     Some(FixedSteps { length, method })
 }
 
@@ -140,14 +115,11 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
     let Some(at) = optional(root, "keep") else {
         return Keep::default();
     };
-    if !reader.record(at, "`keep`", &["runs", "every", "outputs"]) {
-        return Keep::default();
-    }
     let mut keep = Keep {
         time: facts.time.clone(),
         ..Keep::default()
     };
-    for at in optional(at, "runs").map_or(Vec::new(), |at| reader.items(at, "`runs`")) {
+    for at in optional(at, "runs").map_or(Vec::new(), items) {
         let Some(run) = reader.whole(at, "the index of a run") else {
             continue;
         };
@@ -180,18 +152,16 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
             .collect();
         return keep;
     };
-    for at in reader.items(at, "`outputs`") {
-        let Some(name) = reader.text(at) else {
+    for at in items(at) {
+        let Some(name) = text(at) else {
             continue;
         };
-        match facts.output(&name) {
+        match facts.output(name) {
             None => {
                 let names = facts.outputs.iter().map(|o| o.name.as_str());
-                let message = format!("the model has no output {}", quoted(&name));
-                reader.add(at.problem(
-                    message,
-                    suggestion(&name, names, "it has no outputs at all"),
-                ));
+                let message = format!("the model has no output {}", quoted(name));
+                reader
+                    .add(at.problem(message, suggestion(name, names, "it has no outputs at all")));
             }
             Some((index, _)) if keep.outputs.iter().any(|o| o.index == index) => {}
             Some((index, output)) => keep.outputs.push(kept(index, output)),
@@ -201,17 +171,12 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
 }
 
 /// Formats of tables; Parquet by default.
-pub fn tables(reader: &Reader, root: At<'_>) -> Vec<TableKind> {
+pub fn tables(root: At<'_>) -> Vec<TableKind> {
     let Some(at) = optional(root, "tables") else {
         return vec![TableKind::Parquet];
     };
     let mut tables = Vec::new();
-    for at in reader.items(at, "`tables`") {
-        let kind = match reader.word(at, "format of tables", &["parquet", "csv"]) {
-            Some("csv") => TableKind::Csv,
-            Some(_) => TableKind::Parquet,
-            None => continue,
-        };
+    for kind in items(at).into_iter().filter_map(word) {
         if !tables.contains(&kind) {
             tables.push(kind);
         }

@@ -142,7 +142,7 @@ fn fixed_steps_have_a_method_and_no_accuracy() {
     let found = steps("{ step: 0.05 ms }");
     assert_eq!((found.length, found.method), (0.05 * 1e-3, Method::Rk4));
     for method in Method::ALL {
-        let found = steps(&format!("{{ step: 1e-4, method: {} }}", method.name()));
+        let found = steps(&format!("{{ step: 1e-4, method: {} }}", method.word()));
         assert_eq!((found.length, found.method), (1e-4, method));
     }
     assert_eq!(run("{ accuracy: 1 % }").unwrap().step, None);

@@ -15,7 +15,7 @@ use std::collections::HashSet;
 const SECTIONS: [&str; 4] = ["surfaces", "switches", "forces", "outputs"];
 
 /// The sections that are common.
-const COMMON: [&str; 3] = ["parameters", "curves", "vehicles"];
+const COMMON: [&str; 4] = ["parameters", "inputs", "curves", "vehicles"];
 
 /// What a text refers to.
 #[derive(Clone, Copy, PartialEq, Eq)]

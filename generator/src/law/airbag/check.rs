@@ -4,9 +4,6 @@ use super::keys::{Air, Airbag as Written, Inflow as WrittenInflow, Vent};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::quantity::{
-    AREA, GAS_CONSTANT, MASS_FLOW, PRESSURE, PURE, TEMPERATURE, TIME,
-};
 use crate::model::resolve::surface::ellipsoid;
 use crate::model::{Curve, Dimension, Ellipsoid, Extrapolate, Number, ScaledCurve};
 use serde::Serialize;
@@ -105,10 +102,9 @@ pub(crate) fn airbag(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>)
     let gas = written.gas.as_ref();
     let or = |number: Option<Number>, default: f64| number.unwrap_or(default.into());
     let constant = gas.and_then(|gas| gas.constant.as_ref());
-    let constant =
-        constant.map(|r| resolver.number(r, at.key("gas").key("constant"), GAS_CONSTANT));
+    let constant = constant.map(|r| resolver.number(r, at.key("gas").key("constant")));
     let gamma = gas.and_then(|gas| gas.gamma.as_ref());
-    let gamma = gamma.map(|g| resolver.number(g, at.key("gas").key("gamma"), PURE));
+    let gamma = gamma.map(|g| resolver.number(g, at.key("gas").key("gamma")));
     let [pressure, temperature] = air(resolver, written.ambient.as_ref(), at.key("ambient"));
     let start = match &written.start {
         Some(start) => Some(filled(resolver, start, at.key("start"))?),
@@ -176,11 +172,11 @@ fn check_degrees(resolver: &Resolver<'_>, written: &Written, at: At<'_>) {
 
 /// The area of the jet that flows out; `None` if it is 0.
 fn jet(resolver: &Resolver<'_>, written: &Vent, at: At<'_>) -> Option<Number> {
-    let area = resolver.coefficient(Some(&written.area), at.key("area"), AREA)?;
+    let area = resolver.coefficient(Some(&written.area), at.key("area"))?;
     let part = written
         .coefficient
         .as_ref()
-        .map(|c| resolver.number(c, at.key("coefficient"), PURE));
+        .map(|c| resolver.number(c, at.key("coefficient")));
     Some(match part {
         Some(part) => Number::product(area, part),
         None => area,
@@ -191,8 +187,8 @@ fn jet(resolver: &Resolver<'_>, written: &Vent, at: At<'_>) -> Option<Number> {
 fn inflow_of(resolver: &mut Resolver<'_>, written: &WrittenInflow, at: At<'_>) -> Option<Inflow> {
     let fire = resolver.switch_id(&written.fire, at.key("fire"));
     let place = at.key("flow");
-    let flow = resolver.function(&written.flow, place, TIME, MASS_FLOW);
-    let temperature = resolver.number(&written.temperature, at.key("temperature"), TEMPERATURE);
+    let flow = resolver.function(&written.flow, place);
+    let temperature = resolver.number(&written.temperature, at.key("temperature"));
     let flow = flow?;
     let negative = |(curve, _): (&Curve, _)| {
         let last = curve.points.len() - 1;
@@ -217,8 +213,8 @@ fn air(resolver: &Resolver<'_>, written: Option<&Air>, at: At<'_>) -> [Option<Nu
     let pressure = written.and_then(|air| air.pressure.as_ref());
     let temperature = written.and_then(|air| air.temperature.as_ref());
     [
-        pressure.map(|p| resolver.number(p, at.key("pressure"), PRESSURE)),
-        temperature.map(|t| resolver.number(t, at.key("temperature"), TEMPERATURE)),
+        pressure.map(|p| resolver.number(p, at.key("pressure"))),
+        temperature.map(|t| resolver.number(t, at.key("temperature"))),
     ]
 }
 

@@ -5,15 +5,14 @@ use super::keys::{
     Belt as Written, Limiter as WrittenLimiter, Pretensioner as WrittenPretensioner,
     Retractor as WrittenRetractor,
 };
+use crate::description::measure::{Expected, FORCE, LENGTH, PURE, STIFFNESS};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::kinematics::{IDENTITY, Matrix, distance, place, start, vehicle_start};
-use crate::model::resolve::quantity::{
-    Expected, FORCE, LENGTH, LINEAR_DAMPING, Measure, PURE, STIFFNESS, TIME,
-};
+use crate::model::resolve::quantity::Measure;
 use crate::model::{Attachment, Hysteresis, Number, Reference, Rule, ScaledCurve, System};
 use serde::Serialize;
 
@@ -149,17 +148,20 @@ pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
     }
     let force = acting_tension(resolver, written, at);
     let length = untensioned(resolver, written, at, force.as_ref());
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"));
     let damping_stretch = resolver.fade(
-        (written.damping.as_ref(), damping.is_some()),
-        (written.damping_stretch.as_ref(), at.key("damping_stretch")),
+        (written.damping.as_deref(), damping.is_some()),
+        (
+            written.damping_stretch.as_deref(),
+            at.key("damping_stretch"),
+        ),
         (LENGTH, DAMPING_STRETCH),
     );
     let hysteresis = resolver.hysteresis(
         force.as_ref(),
         Unloading {
-            curve: written.unloading.as_ref(),
-            slope: written.unloading_slope.as_ref(),
+            curve: written.unloading.as_deref(),
+            slope: written.unloading_slope.as_deref(),
             loading: ("force", true),
             at,
             expected: [PURE, FORCE, SLOPE],
@@ -171,7 +173,7 @@ pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
         .map(|l| limiter(resolver, l, at.key("limiter"), force.as_ref()));
     let reel = written.retractor.as_ref();
     let retractor = reel.map(|r| retractor(resolver, r, at, force.as_ref()));
-    let film_spool = reel.and_then(|r| film_spool(resolver, r, at.key("retractor")));
+    let film_spool = reel.and_then(|r| film_spool(resolver, &written.belt, r, at.key("retractor")));
     let pretensioner = written
         .pretensioner
         .as_ref()
@@ -247,12 +249,12 @@ fn rings(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Vec<R
                 "give it a name: outputs and effects call it by that",
             ));
         }
-        let friction = resolver.coefficient(ring.friction.as_ref(), at.key("friction"), PURE);
+        let friction = resolver.coefficient(ring.friction.as_ref(), at.key("friction"));
         let resistance = match &ring.resistance {
-            Some(given) => resolver.number(given, at.key("resistance"), LINEAR_DAMPING),
+            Some(given) => resolver.number(given, at.key("resistance")),
             None => RESISTANCE.into(),
         };
-        let position = resolver.vector(&ring.at, at.key("at"), LENGTH);
+        let position = resolver.vector(&ring.at, at.key("at"));
         match resolver.body(&ring.on, at.key("on")) {
             Some(on) => rings.push(Ring {
                 name: name.clone(),
@@ -270,12 +272,13 @@ fn rings(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Vec<R
 /// off it.
 fn film_spool(
     resolver: &mut Resolver<'_>,
+    belt: &str,
     written: &WrittenRetractor,
     at: At<'_>,
 ) -> Option<ScaledCurve> {
     let place = at.key("film_spool");
     let before = resolver.problems.count();
-    let film = resolver.function(written.film_spool.as_ref()?, place, LENGTH, FORCE);
+    let film = resolver.function(written.film_spool.as_ref()?, place);
     // a curve that is 0 everywhere is none
     if film.is_none() && resolver.problems.count() > before {
         return None;
@@ -288,7 +291,7 @@ fn film_spool(
     });
     if ends != Some(true) {
         resolver.problems.add(place.problem(
-            "a film spool must come to an end",
+            format!("`retractor.film_spool` of belt {} must come to an end", quoted(belt)),
             "begin the curve with [0, 0], let no ordinate be smaller than the one before, and the last be more than 0; leave `film_spool` out for a reel that holds at once",
         ));
     }
@@ -337,9 +340,9 @@ fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
     {
         return resolver.line(at.key("stiffness"), slope);
     }
-    resolver.elastic(
-        ("force", written.force.as_ref()),
-        written.stiffness.as_ref(),
+    resolver.elastic_in(
+        ("force", written.force.as_deref()),
+        written.stiffness.as_deref(),
         at,
         [PURE, FORCE, SLOPE],
     )
@@ -369,7 +372,7 @@ fn per_length(
         ));
         return Some(Number::ZERO);
     };
-    let length = resolver.number(length, at.key("length"), LENGTH);
+    let length = resolver.number(length, at.key("length"));
     Some(Number::product(number, length))
 }
 
@@ -384,7 +387,7 @@ fn limiter(
     if let Some(force) = force {
         check_invertible(resolver, force, "limiter", place);
     }
-    resolver.number(&written.force, place, FORCE)
+    resolver.number(&written.force, place)
 }
 
 /// The reel; `None` if its switch is wrong.
@@ -405,7 +408,7 @@ fn retractor(
     let at = at.key("retractor");
     let lock = resolver.switch_id(&written.lock, at.key("lock"));
     let place = at.key("spool");
-    let spool = resolver.coefficient(written.spool.as_ref(), place, FORCE);
+    let spool = resolver.coefficient(written.spool.as_ref(), place);
     let spool = spool.unwrap_or(Number::ZERO);
     if let (Some(force), false) = (force, spool.is_zero()) {
         check_invertible(resolver, force, "retractor", place);
@@ -421,7 +424,7 @@ fn pretensioner(
 ) -> Option<Pretensioner> {
     let fire = resolver.switch_id(&written.fire, at.key("fire"));
     let place = at.key("retract");
-    let retract = resolver.function(&written.retract, place, TIME, LENGTH)?;
+    let retract = resolver.function(&written.retract, place)?;
     let first = resolver
         .curve_of(&retract)
         .map(|(curve, _)| curve.points[0]);
@@ -431,7 +434,7 @@ fn pretensioner(
             "begin the curve with [0, 0]; its abscissa is the time since the switch",
         ));
     }
-    let delay = resolver.coefficient(written.delay.as_ref(), at.key("delay"), TIME);
+    let delay = resolver.coefficient(written.delay.as_ref(), at.key("delay"));
     Some(Pretensioner {
         fire: fire?,
         delay,
@@ -447,12 +450,12 @@ fn untensioned(
     force: Option<&ScaledCurve>,
 ) -> BeltLength {
     let given: Vec<(&str, &Quantity)> = [
-        ("slack", &written.slack),
-        ("pretension", &written.pretension),
-        ("length", &written.length),
+        ("slack", written.slack.as_deref()),
+        ("pretension", written.pretension.as_deref()),
+        ("length", written.length.as_deref()),
     ]
     .into_iter()
-    .filter_map(|(key, quantity)| Some((key, quantity.as_ref()?)))
+    .filter_map(|(key, quantity)| Some((key, quantity?)))
     .collect();
     let none = BeltLength::Slack(Number::ZERO);
     let &[(key, quantity)] = given.as_slice() else {
@@ -466,7 +469,7 @@ fn untensioned(
     };
     let place = at.key(key);
     let expected = if key == "pretension" { FORCE } else { LENGTH };
-    let number = resolver.number(quantity, place, expected);
+    let number = resolver.number_in(quantity, place, expected);
     match key {
         "length" => BeltLength::Given(number),
         "slack" => BeltLength::Slack(number),

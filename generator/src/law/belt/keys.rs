@@ -1,57 +1,56 @@
 //! The keys of a belt.
 
-use crate::description::curve::Function;
+use crate::description::curve::FunctionOf;
 use crate::description::expand::{Expander, Node};
-use crate::description::force::Attachment;
+use crate::description::force::{Acting, Attachment};
+use crate::description::measure::{Force, Length, LinearDamping, Pure, Time, Webbing};
 use crate::description::place::At;
-use crate::description::quantity::Quantity;
-use crate::description::shape::{Key, record};
+use crate::description::quantity::Number;
+use crate::description::shape::{Flat, Key, record};
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Header, Keys, record};
+use crate::model::resolve::law::{Keys, record};
 
 record! {
     /// A belt between two points.
     Belt as "a belt" {
-        /// Name, unique among the belts.
+        /// name, unique among the belts
         belt: String,
-        /// Whether it acts.
-        enabled: Option<bool>,
-        /// Acts from this switch on.
-        since: Option<String>,
-        /// Acts up to this switch.
-        until: Option<String>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
-        /// One end.
+        /// when it acts
+        acting: Flat<Acting>,
+        /// `true` adds its [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
+        /// one [end](#an-attachment)
         from: Attachment,
-        /// The other end.
+        /// the other end, on another body
         to: Attachment,
-        /// The rings that it runs through on the way, in order from `from`.
+        /// the [rings](#a-ring) that it runs through, in order from `from`
         through: Option<Vec<Ring>>,
-        /// Tension against relative elongation \[1\] → \[N\].
-        force: Option<Function>,
-        /// Its slope, where it is a line through 0 \[N\]; with a given length also \[N/m\].
-        stiffness: Option<Quantity>,
-        /// The same while it falls \[1\] → \[N\].
-        unloading: Option<Function>,
-        /// Slope of the line between the two \[N\].
-        unloading_slope: Option<Quantity>,
-        /// Initial distance of the ends less than the untensioned length \[m\].
-        slack: Option<Quantity>,
-        /// Tension at the start \[N\].
-        pretension: Option<Quantity>,
-        /// Untensioned length \[m\].
-        length: Option<Quantity>,
-        /// Viscous coefficient \[N s/m\].
-        damping: Option<Quantity>,
-        /// Stretch at which damping is fully there \[m\].
-        damping_stretch: Option<Quantity>,
-        /// Pays out webbing until it locks.
+        /// curve of the relative elongation
+        force: Option<FunctionOf<Pure, Force>> = "required without `stiffness`",
+        /// instead of `force`: force per relative elongation, [a straight curve](#a-stiffness); with a given `length`
+        /// also force per elongation
+        stiffness: Option<Number<Webbing>>,
+        /// curve of the force during unloading, nowhere above `force`; see [hysteresis](#hysteresis)
+        unloading: Option<FunctionOf<Pure, Force>>,
+        /// slope of the line between the two curves
+        unloading_slope: Option<Number<Force>> = "ten times the steepest slope of `force`",
+        /// L₀ is the initial distance of the ends plus this
+        slack: Option<Number<Length>> = "0",
+        /// L₀ is such that the belt pulls with this force at the start; the curve must rise strictly from `[0, 0]`
+        pretension: Option<Number<Force>>,
+        /// L₀ itself
+        length: Option<Number<Length>>,
+        /// viscous coefficient on the rate of stretch L − L₀, while the belt is taut
+        damping: Option<Number<LinearDamping>> = "0",
+        /// damping grows in proportion to the stretch up to this one, so that no force jumps when the belt goes taut;
+        /// 0: it acts in full at once
+        damping_stretch: Option<Number<Length>> = "1 mm",
+        /// [pays out webbing](#a-retractor) until it locks
         retractor: Option<Retractor>,
-        /// Takes webbing in once it fires.
+        /// [takes webbing in](#a-pretensioner)
         pretensioner: Option<Pretensioner>,
-        /// Pays out webbing where the tension would pass a force.
+        /// [pays out webbing](#a-limiter) under load
         limiter: Option<Limiter>,
     }
 }
@@ -59,48 +58,51 @@ record! {
 record! {
     /// A ring that a belt slips through.
     Ring as "a ring" {
-        /// Name, unique in its belt.
+        /// name, unique in its belt
         ring: String,
-        /// `frame`, a vehicle, or an element as `system/element`.
+        /// `frame`, a vehicle, or an element as `system/element`
         on: String,
-        /// The ring, local frame \[m\].
-        at: Vec<Quantity>,
-        /// Coefficient of friction.
-        friction: Option<Quantity>,
-        /// Resistance to slip beside friction \[N s/m\].
-        resistance: Option<Quantity>,
+        /// the ring, local frame
+        at: Vec<Number<Length>>,
+        /// coefficient of friction μ
+        friction: Option<Number<Pure>> = "0",
+        /// resistance to slip beside friction. The smaller it is, the nearer the tensions come to their ratio, and the
+        /// smaller the steps must be
+        resistance: Option<Number<LinearDamping>> = "50",
     }
 }
 
 record! {
     /// A reel that pays out and takes in webbing until it locks.
     Retractor as "a retractor" {
-        /// The switch that locks it.
+        /// the [switch](#a-switch) that locks it
         lock: String,
-        /// Tension until then \[N\].
-        spool: Option<Quantity>,
-        /// Once locked: by what the tension exceeds the spool's while webbing tightens on the reel, against its length \[m\] → \[N\].
-        film_spool: Option<Function>,
+        /// tension until then; the curve must rise strictly from `[0, 0]`
+        spool: Option<Number<Force>> = "0",
+        /// webbing that tightens on the locked reel: the tension in excess of the spool tension against the webbing
+        /// given, a curve from `[0, 0]` on that never falls. The reel takes the webbing back when the tension falls.
+        /// Both happen under a resistance of 50 N·s/m
+        film_spool: Option<FunctionOf<Length, Force>>,
     }
 }
 
 record! {
     /// A device that takes webbing in.
     Pretensioner as "a pretensioner" {
-        /// The switch that fires it.
+        /// the [switch](#a-switch) that fires it
         fire: String,
-        /// Time from then until it begins to retract \[s\].
-        delay: Option<Quantity>,
-        /// Length taken in against the time since it began \[s\] → \[m\].
-        retract: Function,
+        /// time from the switch until it begins
+        delay: Option<Number<Time>> = "0",
+        /// length of webbing taken in (L₀ decreases by it) against the time since it began; from `[0, 0]` on
+        retract: FunctionOf<Time, Length>,
     }
 }
 
 record! {
     /// A device that pays out webbing under load.
     Limiter as "a limiter" {
-        /// Largest tension \[N\].
-        force: Quantity,
+        /// largest tension, including damping; the curve must rise strictly from `[0, 0]`
+        force: Number<Force>,
     }
 }
 
@@ -108,21 +110,11 @@ impl Keys for Belt {
     const KEY: &'static str = "belt";
     const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["from", "to"]);
 
-    fn header(&self) -> Header<'_> {
-        Header {
-            name: self.belt.clone(),
-            called: Some((Self::KEY, &self.belt)),
-            enabled: self.enabled,
-            since: self.since.as_deref(),
-            until: self.until.as_deref(),
-        }
-    }
-
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
         super::check::belt(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
-    fn records() -> Vec<(&'static str, &'static [Key])> {
+    fn records() -> Vec<(&'static str, Vec<Key>)> {
         vec![
             record::<Belt>(),
             record::<Attachment>(),

@@ -1,12 +1,12 @@
 //! Bushings: two frames, and a law for each direction.
 
 use super::keys::{Bushing as Written, Direction as WrittenDirection, Mount as End, Rotations};
-use crate::description::place::At;
-use crate::diagnostic::quoted;
-use crate::model::resolve::quantity::{
+use crate::description::measure::{
     ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, STIFFNESS,
     TORQUE,
 };
+use crate::description::place::At;
+use crate::diagnostic::quoted;
 use crate::model::resolve::{AXES, NOWHERE, Resolver};
 use crate::model::{Attachment, Number, ScaledCurve};
 use serde::Serialize;
@@ -106,18 +106,18 @@ fn turn(resolver: &mut Resolver<'_>, written: Option<&Rotations>, at: At<'_>) ->
     }
     let written = WrittenDirection {
         elastic: None,
-        stiffness: law.stiffness.clone(),
-        damping: law.damping.clone(),
+        stiffness: law.stiffness.as_ref().map(|number| number.measured_in()),
+        damping: law.damping.as_ref().map(|number| number.measured_in()),
     };
     direction(resolver, &written, ABOUT, place)
 }
 
 fn mount(resolver: &Resolver<'_>, written: &End, at: At<'_>) -> Option<Mount> {
     let axes = match &written.axes {
-        Some(axes) => resolver.rotation(axes, at.key("axes"), ANGLE),
+        Some(axes) => resolver.rotation(axes, at.key("axes")),
         None => NOWHERE,
     };
-    let position = resolver.vector(&written.at, at.key("at"), LENGTH);
+    let position = resolver.vector(&written.at, at.key("at"));
     let on = resolver.body(&written.on, at.key("on"))?;
     Some(Mount {
         on: Attachment { on, at: position },
@@ -155,9 +155,9 @@ fn direction(
     (curve, damping): Measures,
     at: At<'_>,
 ) -> Direction {
-    let elastic = ("elastic", written.elastic.as_ref());
+    let elastic = ("elastic", written.elastic.as_deref());
     Direction {
-        elastic: resolver.elastic(elastic, written.stiffness.as_ref(), at, curve),
-        damping: resolver.coefficient(written.damping.as_ref(), at.key("damping"), damping),
+        elastic: resolver.elastic_in(elastic, written.stiffness.as_deref(), at, curve),
+        damping: resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), damping),
     }
 }

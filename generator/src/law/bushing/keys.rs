@@ -1,34 +1,36 @@
 //! The keys of a bushing.
 
-use crate::description::curve::Function;
+use crate::description::curve::FunctionOf;
 use crate::description::expand::{Expander, Node};
+use crate::description::force::Acting;
+use crate::description::measure::{
+    Angle, AngularDamping, AngularStiffness, Displacement, Effort, EffortPerCoordinate,
+    EffortPerRate, Length,
+};
 use crate::description::place::At;
-use crate::description::quantity::{OneOrThree, Quantity};
-use crate::description::shape::{Key, record};
+use crate::description::quantity::{Number, OneOrThree};
+use crate::description::shape::{Flat, Key, record};
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Header, Keys, record};
+use crate::model::resolve::law::{Keys, record};
 
 record! {
     /// Springs and dampers in six directions between frames of two bodies.
     Bushing as "a bushing" {
-        /// Name, unique among the bushings.
+        /// name, unique among the bushings
         bushing: String,
-        /// Whether it acts.
-        enabled: Option<bool>,
-        /// Acts from this switch on.
-        since: Option<String>,
-        /// Acts up to this switch.
-        until: Option<String>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
-        /// The frame in whose axes the laws are.
+        /// when it acts
+        acting: Flat<Acting>,
+        /// `true` adds its [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
+        /// the [frame](#an-end-of-a-bushing) in whose axes the laws are
         from: Mount,
-        /// The frame that moves against it.
+        /// the frame that moves against it, on another body
         to: Mount,
-        /// Laws of the displacement.
+        /// laws of the displacement [by axis](#the-directions-of-a-bushing); in the plane `x` and `z`
         along: Option<Directions>,
-        /// Laws of the rotation.
+        /// [laws of the rotation](#the-rotations-of-a-bushing): of the Bryant angles by axis, or of the whole; in the
+        /// plane `y`
         about: Option<Rotations>,
     }
 }
@@ -36,23 +38,23 @@ record! {
 record! {
     /// A frame on a body.
     Mount as "an end of a bushing" {
-        /// `frame`, or an element as `system/element`.
+        /// `frame`, a vehicle, or an element as `system/element`
         on: String,
-        /// Its origin, local frame \[m\].
-        at: Vec<Quantity>,
-        /// Bryant angles of its axes relative to the local frame \[rad\].
-        axes: Option<OneOrThree>,
+        /// its origin, local frame
+        at: Vec<Number<Length>>,
+        /// Bryant angles of its axes relative to the local frame; one angle about y in the plane
+        axes: Option<OneOrThree<Number<Angle>>> = "0",
     }
 }
 
 record! {
     /// A law for each axis.
     Directions as "the directions of a bushing" {
-        /// Along or about x.
+        /// the [law](#a-direction-of-a-bushing) along x
         x: Option<Direction>,
-        /// Along or about y.
+        /// along y
         y: Option<Direction>,
-        /// Along or about z.
+        /// along z
         z: Option<Direction>,
     }
 }
@@ -60,13 +62,14 @@ record! {
 record! {
     /// A law for each Bryant angle, or one of the rotation as a whole.
     Rotations as "the rotations of a bushing" {
-        /// About x.
+        /// the [law](#a-direction-of-a-bushing) of the Bryant angle about x
         x: Option<Direction>,
-        /// About y.
+        /// about y
         y: Option<Direction>,
-        /// About z.
+        /// about z
         z: Option<Direction>,
-        /// Of the angle of the whole rotation, about whatever axis it is.
+        /// in their place: the [law](#the-law-of-a-whole-rotation) of the angle of the whole rotation, about whatever
+        /// axis it is
         turn: Option<Turn>,
     }
 }
@@ -74,43 +77,33 @@ record! {
 record! {
     /// The law of the angle of the whole rotation.
     Turn as "the law of a whole rotation" {
-        /// Moment by the angle \[N m/rad\].
-        stiffness: Option<Quantity>,
-        /// Viscous coefficient \[N m s/rad\].
-        damping: Option<Quantity>,
+        /// moment by the angle
+        stiffness: Option<Number<AngularStiffness>>,
+        /// viscous coefficient on the relative angular velocity
+        damping: Option<Number<AngularDamping>> = "0",
     }
 }
 
 record! {
     /// The law of one direction.
     Direction as "a direction of a bushing" {
-        /// Force against displacement \[m\] → \[N\], or moment against angle \[rad\] → \[N m\].
-        elastic: Option<Function>,
-        /// Its slope, where it is a line through 0 \[N/m\] or \[N m/rad\].
-        stiffness: Option<Quantity>,
-        /// Viscous coefficient \[N s/m\] or \[N m s/rad\].
-        damping: Option<Quantity>,
+        /// curve of the displacement or the angle
+        elastic: Option<FunctionOf<Displacement, Effort>>,
+        /// in its place: [a straight curve](#a-stiffness)
+        stiffness: Option<Number<EffortPerCoordinate>>,
+        /// viscous coefficient on its rate
+        damping: Option<Number<EffortPerRate>> = "0",
     }
 }
 
 impl Keys for Bushing {
     const KEY: &'static str = "bushing";
 
-    fn header(&self) -> Header<'_> {
-        Header {
-            name: self.bushing.clone(),
-            called: Some((Self::KEY, &self.bushing)),
-            enabled: self.enabled,
-            since: self.since.as_deref(),
-            until: self.until.as_deref(),
-        }
-    }
-
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
         super::check::bushing(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
-    fn records() -> Vec<(&'static str, &'static [Key])> {
+    fn records() -> Vec<(&'static str, Vec<Key>)> {
         vec![
             record::<Bushing>(),
             record::<Mount>(),

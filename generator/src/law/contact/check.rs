@@ -1,11 +1,11 @@
 //! Contacts of an ellipsoid with a plane or another ellipsoid.
 
 use super::keys::Contact as Written;
+use crate::description::measure::{FORCE, FRICTION, LENGTH, SPEED, STIFFNESS};
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
-use crate::model::resolve::quantity::{FORCE, FRICTION, LENGTH, LINEAR_DAMPING, SPEED, STIFFNESS};
 use crate::model::resolve::surface::{EDGE_WIDTH, degree, ellipsoid, plane};
 use crate::model::{
     Attachment, Bristle, EdgeRule, Ellipsoid, Extent, Friction, Hysteresis, Number, Plane,
@@ -103,13 +103,12 @@ pub(crate) fn contact(
         ("elastic", written.elastic.as_ref()),
         written.stiffness.as_ref(),
         at,
-        [LENGTH, FORCE, STIFFNESS],
     );
     let hysteresis = resolver.hysteresis(
         elastic.as_ref(),
         Unloading {
-            curve: written.unloading.as_ref(),
-            slope: written.unloading_slope.as_ref(),
+            curve: written.unloading.as_deref(),
+            slope: written.unloading_slope.as_deref(),
             loading: (
                 "elastic",
                 written.elastic.is_some() || written.stiffness.is_some(),
@@ -118,20 +117,20 @@ pub(crate) fn contact(
             expected: [LENGTH, FORCE, STIFFNESS],
         },
     );
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"));
     let damping_depth = resolver.fade(
-        (written.damping.as_ref(), damping.is_some()),
-        (written.damping_depth.as_ref(), at.key("damping_depth")),
+        (written.damping.as_deref(), damping.is_some()),
+        (written.damping_depth.as_deref(), at.key("damping_depth")),
         (LENGTH, DAMPING_DEPTH),
     );
-    let limit = written.friction.as_ref();
+    let limit = written.friction.as_deref();
     let friction = resolver.friction(
         limit,
-        written.friction_speed.as_ref(),
+        written.friction_speed.as_deref(),
         at,
         (FRICTION, SPEED, FRICTION_SPEED),
     );
-    let displacement = written.friction_displacement.as_ref();
+    let displacement = written.friction_displacement.as_deref();
     let bristle = resolver.bristle((limit, friction.is_some()), displacement, at, LENGTH);
     if let (Some(first), Some(Against::Plane(flat)), Some(edge)) =
         (&ellipsoid, &mut against, &written.plane)

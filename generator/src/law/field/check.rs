@@ -4,7 +4,6 @@ use super::keys::Field as Written;
 use crate::description::place::At;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::resolve::Resolver;
-use crate::model::resolve::quantity::ACCELERATION;
 use crate::model::{ElementId, FieldComponent};
 use serde::Serialize;
 
@@ -19,8 +18,7 @@ pub struct Field {
 
 /// The checked form of a field.
 pub(crate) fn field(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<Field> {
-    let acceleration =
-        resolver.components(&written.acceleration, at.key("acceleration"), ACCELERATION);
+    let acceleration = resolver.components(&written.acceleration, at.key("acceleration"));
     Some(Field {
         on: elements_of(resolver, written.on.as_deref(), at.key("on"))?,
         acceleration,

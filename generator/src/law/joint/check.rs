@@ -4,7 +4,10 @@ use super::keys::{
     Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, Order as WrittenOrder,
     Stop as WrittenStop, Torque,
 };
-use crate::description::curve::Function;
+use crate::description::measure::{
+    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
+    SPEED, STIFFNESS, TORQUE,
+};
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::short::LongAxis;
@@ -14,10 +17,6 @@ use crate::model::part::{AXES, Part};
 use crate::model::resolve::Resolver;
 use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::joint::freedom_named;
-use crate::model::resolve::quantity::{
-    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
-    SPEED, STIFFNESS, TORQUE,
-};
 use crate::model::{Bristle, ElementId, FieldComponent, Friction, Hysteresis, Number, ScaledCurve};
 use crate::model::{Freedom as KinematicFreedom, Joint as KinematicJoint};
 use serde::Serialize;
@@ -86,68 +85,6 @@ const OF_ONE_ROTATION: [&str; 13] = [
     "motor",
     "drive",
 ];
-
-/// The law about one relative rotation, as written.
-struct Law<'w> {
-    elastic: Option<&'w Function>,
-    stiffness: Option<&'w Quantity>,
-    unloading: Option<&'w Function>,
-    unloading_slope: Option<&'w Quantity>,
-    neutral: Option<&'w Quantity>,
-    damping: Option<&'w Quantity>,
-    friction: Option<&'w Quantity>,
-    friction_speed: Option<&'w Quantity>,
-    friction_displacement: Option<&'w Quantity>,
-    stop: Option<&'w WrittenStop>,
-    lock: Option<&'w WrittenLock>,
-    motor: Option<&'w Function>,
-    drive: Option<&'w WrittenDrive>,
-    at: At<'w>,
-    measures: Measures,
-}
-
-impl<'w> Law<'w> {
-    /// The keys of a law for the one coordinate of a joint.
-    fn of_joint(written: &'w Written, at: At<'w>, measures: Measures) -> Self {
-        Law {
-            elastic: written.elastic.as_ref(),
-            stiffness: written.stiffness.as_ref(),
-            unloading: written.unloading.as_ref(),
-            unloading_slope: written.unloading_slope.as_ref(),
-            neutral: written.neutral.as_ref(),
-            damping: written.damping.as_ref(),
-            friction: written.friction.as_ref(),
-            friction_speed: written.friction_speed.as_ref(),
-            friction_displacement: written.friction_displacement.as_ref(),
-            stop: written.stop.as_ref(),
-            lock: written.lock.as_ref(),
-            motor: written.motor.as_ref(),
-            drive: written.drive.as_ref(),
-            at,
-            measures,
-        }
-    }
-
-    fn of(torque: &'w Torque, at: At<'w>) -> Self {
-        Law {
-            elastic: torque.elastic.as_ref(),
-            stiffness: torque.stiffness.as_ref(),
-            unloading: torque.unloading.as_ref(),
-            unloading_slope: torque.unloading_slope.as_ref(),
-            neutral: torque.neutral.as_ref(),
-            damping: torque.damping.as_ref(),
-            friction: torque.friction.as_ref(),
-            friction_speed: torque.friction_speed.as_ref(),
-            friction_displacement: torque.friction_displacement.as_ref(),
-            stop: torque.stop.as_ref(),
-            lock: torque.lock.as_ref(),
-            motor: torque.motor.as_ref(),
-            drive: torque.drive.as_ref(),
-            at,
-            measures: OF_ANGLE,
-        }
-    }
-}
 
 /// Torques in the joint that carries `child`, between `child` and its parent (or the absolute frame, for a root).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -337,7 +274,7 @@ fn in_plane(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [Join
         ));
     }
     let mut about: [JointTorque; 3] = Default::default();
-    about[1] = torque(resolver, Law::of_joint(written, at, OF_ANGLE));
+    about[1] = torque(resolver, &written.torque, at, OF_ANGLE);
     about
 }
 
@@ -356,8 +293,8 @@ fn about_axes(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [Jo
         let axes = [(&a.x, "x"), (&a.y, "y"), (&a.z, "z")];
         for (law, (written, axis)) in about.iter_mut().zip(axes) {
             if let Some(written) = written {
-                let written = Law::of(written, at.key("about").key(axis));
-                *law = torque(resolver, written);
+                let at = at.key("about").key(axis);
+                *law = torque(resolver, written, at, OF_ANGLE);
             }
         }
     }
@@ -419,7 +356,7 @@ fn law_of_freedom(
         true => OF_ANGLE,
         false => OF_LENGTH,
     };
-    let law = torque(resolver, Law::of_joint(written, at, measures));
+    let law = torque(resolver, &written.torque, at, measures);
     Some(Freedom {
         child,
         freedom,
@@ -446,10 +383,7 @@ fn bending(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
             None => JointTorque::default(),
         },
         torsion: match &written.torsion {
-            Some(torsion) => {
-                let law = Law::of(torsion, at.key("torsion"));
-                torque(resolver, law)
-            }
+            Some(torsion) => torque(resolver, torsion, at.key("torsion"), OF_ANGLE),
             None => JointTorque::default(),
         },
     };
@@ -460,24 +394,22 @@ fn bending(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
 /// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
 /// must be no elastic torque.
 fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>) -> JointTorque {
-    let law = Law {
-        elastic: written.elastic.as_ref(),
-        stiffness: written.stiffness.as_ref(),
-        unloading: written.unloading.as_ref(),
-        unloading_slope: written.unloading_slope.as_ref(),
+    let law = Torque {
+        elastic: written.elastic.clone(),
+        stiffness: written.stiffness.clone(),
+        unloading: written.unloading.clone(),
+        unloading_slope: written.unloading_slope.clone(),
         neutral: None,
-        damping: written.damping.as_ref(),
-        friction: written.friction.as_ref(),
-        friction_speed: written.friction_speed.as_ref(),
+        damping: written.damping.clone(),
+        friction: written.friction.clone(),
+        friction_speed: written.friction_speed.clone(),
         friction_displacement: None,
-        stop: written.stop.as_ref(),
+        stop: written.stop.clone(),
         lock: None,
         motor: None,
         drive: None,
-        at,
-        measures: OF_ANGLE,
     };
-    let torque = torque(resolver, law);
+    let torque = torque(resolver, &law, at, OF_ANGLE);
     let curve = torque.elastic.as_ref().and_then(|e| resolver.curve_of(e));
     if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
         resolver.problems.add(at.key("elastic").problem(
@@ -498,17 +430,15 @@ fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>) -> JointT
 }
 
 /// The law of one coordinate.
-fn torque(resolver: &mut Resolver<'_>, law: Law<'_>) -> JointTorque {
-    let (at, of) = (law.at, law.measures);
-    let elastic = resolver.elastic(
-        ("elastic", law.elastic),
-        law.stiffness,
+fn torque(resolver: &mut Resolver<'_>, law: &Torque, at: At<'_>, of: Measures) -> JointTorque {
+    let elastic = resolver.elastic_in(
+        ("elastic", law.elastic.as_deref()),
+        law.stiffness.as_deref(),
         at,
         [of.coordinate, of.force, of.stiffness],
     );
-    let neutral = law
-        .neutral
-        .map(|n| resolver.number(n, at.key("neutral"), of.coordinate));
+    let neutral = law.neutral.as_deref();
+    let neutral = neutral.map(|n| resolver.number_in(n, at.key("neutral"), of.coordinate));
     if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
         resolver.problems.add(at.key("neutral").key_problem(
             "a neutral angle means nothing without an elastic curve",
@@ -518,40 +448,44 @@ fn torque(resolver: &mut Resolver<'_>, law: Law<'_>) -> JointTorque {
     let hysteresis = resolver.hysteresis(
         elastic.as_ref(),
         Unloading {
-            curve: law.unloading,
-            slope: law.unloading_slope,
+            curve: law.unloading.as_deref(),
+            slope: law.unloading_slope.as_deref(),
             loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
             at,
             expected: [of.coordinate, of.force, of.stiffness],
         },
     );
     let friction = resolver.friction(
-        law.friction,
-        law.friction_speed,
+        law.friction.as_deref(),
+        law.friction_speed.as_deref(),
         at,
         (of.force, of.rate, of.friction_speed),
     );
     let bristle = resolver.bristle(
-        (law.friction, friction.is_some()),
-        law.friction_displacement,
+        (law.friction.as_deref(), friction.is_some()),
+        law.friction_displacement.as_deref(),
         at,
         of.coordinate,
     );
-    let motor = law
-        .motor
-        .map(|motor| resolver.component(motor, at.key("motor"), of.force));
-    let drive = law
-        .drive
-        .and_then(|d| drive(resolver, d, at.key("drive"), of));
+    let motor = law.motor.as_deref();
+    let motor = motor.map(|motor| resolver.component_in(motor, at.key("motor"), of.force));
+    let drive = law.drive.as_ref();
+    let drive = drive.and_then(|d| self::drive(resolver, d, at.key("drive"), of));
     JointTorque {
         neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
         elastic,
         hysteresis,
-        damping: resolver.coefficient(law.damping, at.key("damping"), of.damping),
+        damping: resolver.coefficient_in(law.damping.as_deref(), at.key("damping"), of.damping),
         friction,
         bristle,
-        stop: law.stop.and_then(|s| stop(resolver, s, at.key("stop"), of)),
-        lock: law.lock.and_then(|l| lock(resolver, l, at.key("lock"), of)),
+        stop: law
+            .stop
+            .as_ref()
+            .and_then(|s| stop(resolver, s, at.key("stop"), of)),
+        lock: law
+            .lock
+            .as_ref()
+            .and_then(|l| lock(resolver, l, at.key("lock"), of)),
         motor: motor.filter(Part::is_in),
         drive,
     }
@@ -564,13 +498,14 @@ fn drive(
     at: At<'_>,
     of: Measures,
 ) -> Option<Drive> {
-    let to: FieldComponent = resolver.component(&written.to, at.key("to"), of.coordinate);
+    let to: FieldComponent = resolver.component_in(&written.to, at.key("to"), of.coordinate);
     let place = at.key("stiffness");
-    let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+    let stiffness = resolver.coefficient_in(Some(&written.stiffness), place, of.stiffness);
+    let damping =
+        resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), of.damping);
     let place = at.key("limit");
-    let limit = written.limit.as_ref();
-    let limit = limit.map(|limit| resolver.number(limit, place, of.force));
+    let limit = written.limit.as_deref();
+    let limit = limit.map(|limit| resolver.number_in(limit, place, of.force));
     (stiffness.is_some() || damping.is_some()).then_some(Drive {
         to,
         stiffness: stiffness.unwrap_or(Number::ZERO),
@@ -581,11 +516,11 @@ fn drive(
 
 /// The checked form of the ends of a rotation; `None` if they have no effect.
 fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
-    let bound = |quantity: &Option<Quantity>, key| {
-        let quantity = quantity.as_ref()?;
-        Some(resolver.number(quantity, at.key(key), of.coordinate))
+    let bound = |quantity: Option<&Quantity>, key| {
+        Some(resolver.number_in(quantity?, at.key(key), of.coordinate))
     };
-    let (from, to) = (bound(&written.from, "from"), bound(&written.to, "to"));
+    let from = bound(written.from.as_deref(), "from");
+    let to = bound(written.to.as_deref(), "to");
     if from.is_none() && to.is_none() {
         resolver.problems.add(at.problem(
             "the stop does not say where the rotation ends",
@@ -593,11 +528,12 @@ fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures
         ));
     }
     let place = at.key("stiffness");
-    let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+    let stiffness = resolver.coefficient_in(Some(&written.stiffness), place, of.stiffness);
+    let damping =
+        resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), of.damping);
     let damping_angle = resolver.fade(
-        (written.damping.as_ref(), damping.is_some()),
-        (written.damping_angle.as_ref(), at.key("damping_angle")),
+        (written.damping.as_deref(), damping.is_some()),
+        (written.damping_angle.as_deref(), at.key("damping_angle")),
         (of.coordinate, of.damping_depth),
     );
     (stiffness.is_some() || damping.is_some()).then_some(Stop {
@@ -613,8 +549,9 @@ fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures
 fn lock(resolver: &Resolver<'_>, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
     let by = resolver.switch_id(&written.by, at.key("by"));
     let place = at.key("stiffness");
-    let stiffness = resolver.coefficient(Some(&written.stiffness), place, of.stiffness);
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), of.damping);
+    let stiffness = resolver.coefficient_in(Some(&written.stiffness), place, of.stiffness);
+    let damping =
+        resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), of.damping);
     (stiffness.is_some() || damping.is_some()).then_some(Lock {
         by: by?,
         stiffness: stiffness.unwrap_or(Number::ZERO),

@@ -1,66 +1,41 @@
 //! The keys of a joint force: laws about rotations, of flexion and torsion, of the coordinates of freedoms.
 
-use crate::description::curve::Function;
+use crate::description::curve::{FunctionOf, OverTime};
 use crate::description::expand::{Expander, Node};
+use crate::description::force::Acting;
+use crate::description::measure::{self, Angle, AngularDamping, AngularStiffness, Rate};
 use crate::description::place::At;
-use crate::description::quantity::Quantity;
-use crate::description::shape::{Key, record, words};
+use crate::description::quantity::Number;
+use crate::description::shape::{Flat, Key, record, words};
 use crate::description::short::Each;
 use crate::description::short::LongAxis;
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::law::{Header, Keys, record};
+use serde_yaml::Value;
 
 record! {
     /// Torque in a joint.
     Joint as "a joint force" {
-        /// The element that the joint carries, as `system/element`.
+        /// the element that the joint carries, as `system/element`; or a list: the same force in several joints
         joint: Each<String>,
-        /// Of a joint with several freedoms of its own: which.
+        /// required if the joint has several freedoms: the name of the freedom that the force acts on
         freedom: Option<String>,
-        /// Where the joint has several forces: which this is.
+        /// tells [several forces in one joint](#several-forces-in-one-joint) apart
         name: Option<String>,
-        /// Whether it acts.
-        enabled: Option<bool>,
-        /// Acts from this switch on.
-        since: Option<String>,
-        /// Acts up to this switch.
-        until: Option<String>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
-        /// In the plane: torque against the relative angle \[rad\] → \[N m\].
-        elastic: Option<Function>,
-        /// In the plane: its slope, where it is a line through 0 \[N m/rad\].
-        stiffness: Option<Quantity>,
-        /// In the plane: the same while it falls \[rad\] → \[N m\].
-        unloading: Option<Function>,
-        /// In the plane: slope of the line between the two \[N m/rad\].
-        unloading_slope: Option<Quantity>,
-        /// In the plane: relative angle at which the curve has its zero \[rad\].
-        neutral: Option<Quantity>,
-        /// In the plane: viscous coefficient \[N m s/rad\].
-        damping: Option<Quantity>,
-        /// In the plane: Coulomb torque \[N m\].
-        friction: Option<Quantity>,
-        /// In the plane: speed at which friction is fully there \[rad/s\].
-        friction_speed: Option<Quantity>,
-        /// In the plane: angle at which friction that holds is fully there \[rad\].
-        friction_displacement: Option<Quantity>,
-        /// In the plane: where the rotation ends.
-        stop: Option<Stop>,
-        /// In the plane: what holds the relative angle once a switch acts.
-        lock: Option<Lock>,
-        /// In the plane: torque of a motor, a number or a curve of time \[N m\].
-        motor: Option<Function>,
-        /// In the plane: what drives the relative angle to one that is given.
-        drive: Option<Drive>,
-        /// In space: the laws about the three relative rotations.
+        /// when it acts
+        acting: Flat<Acting>,
+        /// `true` adds its [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
+        /// in the plane, and for a freedom: the law of the one coordinate
+        torque: Flat<Torque>,
+        /// in space, instead of the keys above: a law for each [rotation](#the-rotations-of-a-joint)
         about: Option<About>,
-        /// In space: the long axis of both elements, for flexion and torsion.
-        axis: Option<LongAxis>,
-        /// In space: the law of the angle between the long axes.
+        /// in space: the long axis of both elements, `x`, `y` or `z`, for the two keys below
+        axis: Option<LongAxis> = "`z`",
+        /// in space: a [law](#a-flexion) of the angle between the long axes
         flexion: Option<Flexion>,
-        /// In space: the law of the turn about the long axes.
+        /// in space: a [law](#a-torque) of the turn about the long axes
         torsion: Option<Torque>,
     }
 }
@@ -86,53 +61,54 @@ words! {
 record! {
     /// Laws per relative Bryant angle.
     About as "the rotations of a joint" {
-        /// About the first relative angle.
+        /// [law](#a-torque) about the first relative angle
         x: Option<Torque>,
-        /// About the second.
+        /// law about the second
         y: Option<Torque>,
-        /// About the third.
+        /// law about the third
         z: Option<Torque>,
-        /// One law about the first and one about the second.
+        /// one law about the first and the same about the second
         xy: Option<Torque>,
-        /// The same about the first and the third.
+        /// the same about the first and the third
         xz: Option<Torque>,
-        /// The same about the second and the third.
+        /// the same about the second and the third
         yz: Option<Torque>,
-        /// The same about all three.
+        /// the same about all three
         xyz: Option<Torque>,
-        /// The order of the three turns; the middle one must stay below 90°.
-        order: Option<Order>,
+        /// the order of the turns that the angles are of: `xyz`, `xzy`, `yxz`, `yzx`, `zxy` or `zyx`
+        order: Option<Order> = "`xyz`",
     }
 }
 
 record! {
     /// The law about one relative rotation.
     Torque as "a torque" {
-        /// Torque against the relative angle \[rad\] → \[N m\].
-        elastic: Option<Function>,
-        /// Its slope, where it is a line through 0 \[N m/rad\].
-        stiffness: Option<Quantity>,
-        /// The same while it falls \[rad\] → \[N m\].
-        unloading: Option<Function>,
-        /// Slope of the line between the two \[N m/rad\].
-        unloading_slope: Option<Quantity>,
-        /// Relative angle at which the curve has its zero \[rad\].
-        neutral: Option<Quantity>,
-        /// Viscous coefficient \[N m s/rad\].
-        damping: Option<Quantity>,
-        /// Coulomb torque \[N m\].
-        friction: Option<Quantity>,
-        /// Speed at which friction is fully there \[rad/s\].
-        friction_speed: Option<Quantity>,
-        /// Angle at which friction that holds is fully there \[rad\].
-        friction_displacement: Option<Quantity>,
-        /// Where the rotation ends.
+        /// curve of the relative angle; the torque resists with its negative
+        elastic: Option<FunctionOf<Angle, measure::Torque>>,
+        /// instead of `elastic`: torque per angle, [a straight curve](#a-stiffness)
+        stiffness: Option<Number<AngularStiffness>>,
+        /// curve of the torque during unloading, between 0 and `elastic`; see [hysteresis of
+        /// joints](#hysteresis-of-joints)
+        unloading: Option<FunctionOf<Angle, measure::Torque>>,
+        /// slope of the line between the two curves
+        unloading_slope: Option<Number<AngularStiffness>> = "ten times the steepest slope of `elastic`",
+        /// relative angle at which the abscissa of the curve is 0
+        neutral: Option<Number<Angle>> = "0",
+        /// viscous coefficient
+        damping: Option<Number<AngularDamping>> = "0",
+        /// Coulomb torque
+        friction: Option<Number<measure::Torque>> = "0",
+        /// friction grows in proportion to speed up to this one, and is constant beyond
+        friction_speed: Option<Number<Rate>> = "0.1",
+        /// with it friction [holds](#friction-that-holds-a-joint): the angle at which it acts in full
+        friction_displacement: Option<Number<Angle>>,
+        /// [where the rotation ends](#a-stop)
         stop: Option<Stop>,
-        /// What holds the relative angle once a switch acts.
+        /// [a lock](#a-lock), which holds the angle from a switch on
         lock: Option<Lock>,
-        /// Torque of a motor, a number or a curve of time \[N m\].
-        motor: Option<Function>,
-        /// What drives the relative angle to one that is given.
+        /// torque of a motor, a number or a curve of time (s → N·m); a positive one drives the angle up
+        motor: Option<OverTime<measure::Torque>> = "0",
+        /// [a drive](#a-drive) towards a given angle
         drive: Option<Drive>,
     }
 }
@@ -140,21 +116,22 @@ record! {
 record! {
     /// The law of the angle between two long axes.
     Flexion as "a flexion" {
-        /// Torque against the angle \[rad\] → \[N m\].
-        elastic: Option<Function>,
-        /// Its slope, where it is a line through 0 \[N m/rad\].
-        stiffness: Option<Quantity>,
-        /// The same while it falls \[rad\] → \[N m\].
-        unloading: Option<Function>,
-        /// Slope of the line between the two \[N m/rad\].
-        unloading_slope: Option<Quantity>,
-        /// Viscous coefficient \[N m s/rad\].
-        damping: Option<Quantity>,
-        /// Coulomb torque \[N m\].
-        friction: Option<Quantity>,
-        /// Speed at which friction is fully there \[rad/s\].
-        friction_speed: Option<Quantity>,
-        /// Where the bending ends.
+        /// curve of the angle, through `[0, 0]`; the torque resists with its negative
+        elastic: Option<FunctionOf<Angle, measure::Torque>>,
+        /// instead of `elastic`: torque per angle, [a straight curve](#a-stiffness)
+        stiffness: Option<Number<AngularStiffness>>,
+        /// curve of the torque during unloading, between 0 and `elastic`; see [hysteresis of
+        /// joints](#hysteresis-of-joints)
+        unloading: Option<FunctionOf<Angle, measure::Torque>>,
+        /// slope of the line between the two curves
+        unloading_slope: Option<Number<AngularStiffness>> = "ten times the steepest slope of `elastic`",
+        /// viscous coefficient
+        damping: Option<Number<AngularDamping>> = "0",
+        /// Coulomb torque
+        friction: Option<Number<measure::Torque>> = "0",
+        /// friction grows in proportion to speed up to this one, and is constant beyond
+        friction_speed: Option<Number<Rate>> = "0.1",
+        /// [where the bending ends](#a-stop); only with `to`
         stop: Option<Stop>,
     }
 }
@@ -162,42 +139,43 @@ record! {
 record! {
     /// The ends of a rotation.
     Stop as "a stop" {
-        /// Smallest relative angle that is free \[rad\].
-        from: Option<Quantity>,
-        /// Largest \[rad\].
-        to: Option<Quantity>,
-        /// Torque per angle beyond \[N m/rad\].
-        stiffness: Quantity,
-        /// Viscous coefficient beyond \[N m s/rad\].
-        damping: Option<Quantity>,
-        /// Angle beyond at which damping is fully there \[rad\].
-        damping_angle: Option<Quantity>,
+        /// smallest angle without a stop torque
+        from: Option<Number<Angle>>,
+        /// largest angle without a stop torque
+        to: Option<Number<Angle>>,
+        /// torque per angle beyond
+        stiffness: Number<AngularStiffness>,
+        /// viscous coefficient on the rate, beyond
+        damping: Option<Number<AngularDamping>> = "0",
+        /// damping grows in proportion to the angle beyond up to this one, so that no torque jumps; 0: it acts in full
+        /// at once
+        damping_angle: Option<Number<Angle>> = "1°",
     }
 }
 
 record! {
     /// What holds a relative angle from a switch on.
     Lock as "a lock" {
-        /// The switch.
+        /// the [switch](#a-switch)
         by: String,
-        /// Torque per angle from that of the switch \[N m/rad\].
-        stiffness: Quantity,
-        /// Viscous coefficient \[N m s/rad\].
-        damping: Option<Quantity>,
+        /// torque per angle from there
+        stiffness: Number<AngularStiffness>,
+        /// viscous coefficient on the rate
+        damping: Option<Number<AngularDamping>> = "0",
     }
 }
 
 record! {
     /// What drives a coordinate to one that is given, by a spring and a damper.
     Drive as "a drive" {
-        /// The coordinate to drive to, a number or a curve of time \[rad\].
-        to: Function,
-        /// Torque per angle from there \[N m/rad\].
-        stiffness: Quantity,
-        /// Torque per difference of the rates \[N m s/rad\].
-        damping: Option<Quantity>,
-        /// Largest torque \[N m\].
-        limit: Option<Quantity>,
+        /// the coordinate to drive to: a number, or a curve of time (s → rad), whose slope is c'
+        to: OverTime<Angle>,
+        /// torque per difference of the angles
+        stiffness: Number<AngularStiffness>,
+        /// torque per difference of the rates
+        damping: Option<Number<AngularDamping>> = "0",
+        /// largest torque
+        limit: Option<Number<measure::Torque>>,
     }
 }
 
@@ -216,13 +194,12 @@ impl Keys for Joint {
     const TWICE: Option<&'static str> =
         Some("give one of them a name: `name: broken`; it then is `joint SYSTEM/ELEMENT/broken`");
 
-    fn header(&self) -> Header<'_> {
+    fn header<'v>(&'v self, value: &'v Value) -> Header<'v> {
+        let name = self.name.as_deref();
         Header {
             name: self.path(),
-            called: self.name.as_deref().map(|name| ("name", name)),
-            enabled: self.enabled,
-            since: self.since.as_deref(),
-            until: self.until.as_deref(),
+            called: name.map(|name| ("name", name)),
+            ..Header::read(value, Self::KEY)
         }
     }
 
@@ -230,7 +207,7 @@ impl Keys for Joint {
         super::check::joint(resolver, self, at)
     }
 
-    fn records() -> Vec<(&'static str, &'static [Key])> {
+    fn records() -> Vec<(&'static str, Vec<Key>)> {
         vec![
             record::<Joint>(),
             record::<About>(),

@@ -1,9 +1,9 @@
 //! Given loads: a force at a point of an element and a moment, in absolute axes.
 
 use super::keys::Load as Written;
+use crate::description::measure::MOMENT;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
-use crate::model::resolve::quantity::{FORCE, MOMENT};
 use crate::model::resolve::{NOWHERE, Resolver};
 use crate::model::{Attachment, Body, ElementId, FieldComponent, Number};
 use serde::Serialize;
@@ -34,12 +34,12 @@ pub(crate) fn load(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -
     }
     let mut force = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
     if let Some(components) = &written.force {
-        force = resolver.components(components, at.key("force"), FORCE);
+        force = resolver.components(components, at.key("force"));
     }
     let mut moment = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
     if let Some(components) = &written.moment {
         for (axis, component, at) in resolver.about_axes(components, at.key("moment"), MOMENT) {
-            moment[axis] = resolver.component(component, at, MOMENT);
+            moment[axis] = resolver.component(component, at);
         }
     }
     let element = element?;

@@ -1,36 +1,34 @@
 //! The keys of a given load.
 
-use crate::description::curve::Function;
+use crate::description::curve::OverTime;
 use crate::description::expand::{Expander, Node};
+use crate::description::force::Acting;
+use crate::description::measure::{Force, Moment};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::quantity::OneOrThree;
-use crate::description::shape::{Key, record};
+use crate::description::shape::{Flat, Key, record};
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Header, Keys, record};
+use crate::model::resolve::law::{Keys, record};
 
 record! {
     /// A given force and moment on an element.
     Load as "a load" {
-        /// Name, unique among the loads.
+        /// name, unique among the loads
         load: String,
-        /// Whether it acts.
-        enabled: Option<bool>,
-        /// Acts from this switch on.
-        since: Option<String>,
-        /// Acts up to this switch.
-        until: Option<String>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
-        /// The element, as `system/element`.
+        /// when it acts
+        acting: Flat<Acting>,
+        /// `true` adds its [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
+        /// the element, as `system/element`
         on: String,
-        /// Where the force acts, local frame \[m\].
-        at: Option<Point>,
-        /// Per absolute axis \[N\]: a number or a curve of time.
-        force: Option<Vec<Function>>,
-        /// About y, or per absolute axis \[N m\]: a number or a curve of time.
-        moment: Option<OneOrThree<Function>>,
+        /// where the force acts: `cg`, or coordinates in the local frame
+        at: Option<Point> = "the joint of the element",
+        /// per absolute axis: a number, or a curve of time (s → N)
+        force: Option<Vec<OverTime<Force>>> = "0",
+        /// a number, or a curve of time (s → N·m): about +y in the plane; `[x, y, z]` in absolute axes in space
+        moment: Option<OneOrThree<OverTime<Moment>>> = "0",
     }
 }
 
@@ -38,21 +36,11 @@ impl Keys for Load {
     const KEY: &'static str = "load";
     const OBSERVABLE: bool = false;
 
-    fn header(&self) -> Header<'_> {
-        Header {
-            name: self.load.clone(),
-            called: Some((Self::KEY, &self.load)),
-            enabled: self.enabled,
-            since: self.since.as_deref(),
-            until: self.until.as_deref(),
-        }
-    }
-
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
         super::check::load(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
-    fn records() -> Vec<(&'static str, &'static [Key])> {
+    fn records() -> Vec<(&'static str, Vec<Key>)> {
         vec![record::<Load>()]
     }
 

@@ -4,7 +4,6 @@ use super::keys::Spring as Written;
 use crate::description::place::At;
 use crate::diagnostic::quoted;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::quantity::{FORCE, LENGTH, LINEAR_DAMPING, STIFFNESS};
 use crate::model::{Attachment, Number, ScaledCurve};
 use serde::Serialize;
 
@@ -40,7 +39,6 @@ pub(crate) fn spring(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>)
         ("elastic", written.elastic.as_ref()),
         written.stiffness.as_ref(),
         at,
-        [LENGTH, FORCE, STIFFNESS],
     );
     if written.length.is_some() && written.elastic.is_none() && written.stiffness.is_none() {
         resolver.problems.add(at.key("length").key_problem(
@@ -51,8 +49,8 @@ pub(crate) fn spring(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>)
     let length = written
         .length
         .as_ref()
-        .map(|length| resolver.number(length, at.key("length"), LENGTH));
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"), LINEAR_DAMPING);
+        .map(|length| resolver.number(length, at.key("length")));
+    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"));
     Some(Spring {
         from: from?,
         to: to?,

@@ -1,40 +1,37 @@
 //! The keys of a spring.
 
-use crate::description::curve::Function;
+use crate::description::curve::FunctionOf;
 use crate::description::expand::{Expander, Node};
-use crate::description::force::Attachment;
+use crate::description::force::{Acting, Attachment};
+use crate::description::measure::{Force, Length, LinearDamping, Stiffness};
 use crate::description::place::At;
-use crate::description::quantity::Quantity;
-use crate::description::shape::{Key, record};
+use crate::description::quantity::Number;
+use crate::description::shape::{Flat, Key, record};
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Header, Keys, record};
+use crate::model::resolve::law::{Keys, record};
 
 record! {
     /// A spring and a damper between two points.
     Spring as "a spring" {
-        /// Name, unique among the springs.
+        /// name, unique among the springs
         spring: String,
-        /// Whether it acts.
-        enabled: Option<bool>,
-        /// Acts from this switch on.
-        since: Option<String>,
-        /// Acts up to this switch.
-        until: Option<String>,
-        /// Whether it has a mirror image.
-        mirror: Option<bool>,
-        /// One end.
+        /// when it acts
+        acting: Flat<Acting>,
+        /// `true` adds its [mirror image](#a-mirror)
+        mirror: Option<bool> = "`false`",
+        /// one [end](#an-attachment)
         from: Attachment,
-        /// The other end.
+        /// the other end, on another body
         to: Attachment,
-        /// Force against elongation \[m\] → \[N\].
-        elastic: Option<Function>,
-        /// Its slope, where it is a line through 0 \[N/m\].
-        stiffness: Option<Quantity>,
-        /// Length without force \[m\].
-        length: Option<Quantity>,
-        /// Viscous coefficient \[N s/m\].
-        damping: Option<Quantity>,
+        /// curve of the elongation: the length less the length without force
+        elastic: Option<FunctionOf<Length, Force>>,
+        /// instead of `elastic`: force per elongation, [a straight curve](#a-stiffness)
+        stiffness: Option<Number<Stiffness>>,
+        /// length without force
+        length: Option<Number<Length>> = "the distance of the ends at the start",
+        /// viscous coefficient on the rate of the length
+        damping: Option<Number<LinearDamping>> = "0",
     }
 }
 
@@ -42,21 +39,11 @@ impl Keys for Spring {
     const KEY: &'static str = "spring";
     const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["from", "to"]);
 
-    fn header(&self) -> Header<'_> {
-        Header {
-            name: self.spring.clone(),
-            called: Some((Self::KEY, &self.spring)),
-            enabled: self.enabled,
-            since: self.since.as_deref(),
-            until: self.until.as_deref(),
-        }
-    }
-
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
         super::check::spring(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
-    fn records() -> Vec<(&'static str, &'static [Key])> {
+    fn records() -> Vec<(&'static str, Vec<Key>)> {
         vec![record::<Spring>()]
     }
 

@@ -1,8 +1,9 @@
 //! User forces: the points, bodies and so on that the function reads and acts on, its other arguments, and the function
 //! itself.
 
-use crate::description::curve::{Function, ScaledCurve as WrittenScaled};
+use crate::description::curve::{Function, FunctionOf, OverTime, ScaledCurve as WrittenScaled};
 use crate::description::load::{beside, shown};
+use crate::description::measure::{Any, TIME};
 use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Named;
@@ -16,7 +17,7 @@ use crate::model::Joint;
 use crate::model::resolve::Resolver;
 use crate::model::resolve::joint::freedom_named;
 use crate::model::resolve::name::{Style, identifier};
-use crate::model::resolve::quantity::{ANY, LENGTH, Measure, TIME};
+use crate::model::resolve::quantity::Measure;
 use crate::model::resolve::run::time;
 use crate::model::resolve::rust::{self, Fault, Place, Wanted};
 use crate::model::{Attachment, Body, Dimension, ElementId, FieldComponent, Number, ScaledCurve};
@@ -224,8 +225,8 @@ struct Entries<'w> {
     joints: Listed<'w, String>,
     freedoms: Listed<'w, WrittenFreedom>,
     states: Listed<'w, WrittenState>,
-    parameters: Listed<'w, Function>,
-    curves: Listed<'w, Function>,
+    parameters: Listed<'w, OverTime<Any>>,
+    curves: Listed<'w, FunctionOf<Any, Any>>,
 }
 
 impl<'w> Entries<'w> {
@@ -317,10 +318,10 @@ impl<'w> Entries<'w> {
             user_parameter(resolver, function, at)
         });
         let curves = each(self.curves, |_, function, at| {
-            Some(resolver.function(function, at, ANY, ANY))
+            Some(resolver.function(function, at))
         });
         let (function, source) = user_function(resolver, written, at)?;
-        let scale = written.scale.as_ref();
+        let scale = written.scale.as_deref();
         let scale = scale.map(|_| time(resolver, scale, at.key("scale"), f64::INFINITY));
         Some(User {
             function: UserFunction {
@@ -393,7 +394,7 @@ fn user_point(resolver: &Resolver<'_>, written: &UserPoint, at: At<'_>) -> Optio
     let on = resolver.body(&written.on, at.key("on"))?;
     let position = match (&written.at, on) {
         (point, Body::Element(id)) => resolver.point(point, id, at.key("at")),
-        (Point::At(point), _) => resolver.vector(point, at.key("at"), LENGTH),
+        (Point::At(point), _) => resolver.vector(point, at.key("at")),
         (Point::Cg, _) => {
             resolver.problems.add(at.key("at").problem(
                 format!("{} has no centre of gravity", quoted(&written.on)),
@@ -476,15 +477,15 @@ fn user_state(resolver: &Resolver<'_>, written: &WrittenState, at: At<'_>) -> Op
 /// The checked form of a parameter, with its unit if that is known.
 fn user_parameter(
     resolver: &mut Resolver<'_>,
-    written: &Function,
+    written: &OverTime<Any>,
     at: At<'_>,
 ) -> Option<UserParameter> {
     let before = resolver.problems.count();
-    let value = resolver.component(written, at, ANY);
+    let value = resolver.component(written, at);
     if resolver.problems.count() > before {
         return None;
     }
-    let measure = match (&value, written) {
+    let measure = match (&value, &**written) {
         (FieldComponent::Constant(_), Function::Quantity(quantity)) => {
             resolver.measured(quantity, at)?.1
         }

@@ -1,47 +1,48 @@
 //! A force of the user's own as written: the function, what it looks at, what it acts on, what it is given.
 
-use crate::description::curve::Function;
-use crate::description::force::Attachment;
+use crate::description::curve::{FunctionOf, OverTime};
+use crate::description::force::{Acting, Attachment};
+use crate::description::measure::{Any, Time};
 use crate::description::place::At;
 use crate::description::point::Point;
-use crate::description::quantity::Quantity;
-use crate::description::shape::{Key, Named, record};
+use crate::description::quantity::Number;
+use crate::description::shape::{Flat, Key, Named, record};
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Header, Keys, record};
+use crate::model::resolve::law::{Keys, record};
 
 record! {
     /// A force computed by a Rust function of the user's.
     User as "a user force" {
-        /// Name, unique among the user forces.
+        /// name, unique among the user forces
         user: String,
-        /// Whether it acts.
-        enabled: Option<bool>,
-        /// Acts from this switch on.
-        since: Option<String>,
-        /// Acts up to this switch.
-        until: Option<String>,
-        /// The function: its name in `source`, or its path in the crate that the module is generated for.
-        function: Option<String>,
-        /// The Rust file with the function, relative to this one.
+        /// when it acts
+        acting: Flat<Acting>,
+        /// the function: its name in `source`; without `source` its path in the crate that includes the module, such as
+        /// `crate::aero::drag`
+        function: Option<String> = "the name of the force",
+        /// the Rust file with the function, relative to this file
         source: Option<String>,
-        /// The shortest time in which the force changes by much: no step is longer; without one that is `every` of the run.
-        scale: Option<Quantity>,
-        /// Points: their position and velocity, and a force on each.
+        /// the shortest time in which the force changes by much: no step of the adaptive methods is longer
+        scale: Option<Number<Time>> = "`every` of the run",
+        /// by name: [points](#a-point-of-a-user-force) whose motion it is given and on which it returns forces
         points: Option<Named<UserPoint>>,
-        /// Elements: their orientation and angular velocity, and a moment on each.
+        /// by name: elements (`head: man/head`) whose rotation it is given and on which it returns moments, in absolute
+        /// axes
         bodies: Option<Named<String>>,
-        /// Lines between two points: their length and its rate, and a tension in each.
+        /// by name: [lines](#a-line-of-a-user-force) along which it pulls
         lines: Option<Named<UserLine>>,
-        /// Joints, by the element that they carry: the relative angles and rates, and torques.
+        /// by name: elements (`elbow: man/forearm`) in whose joints it acts, on the element and, opposite, on its
+        /// carrier
         joints: Option<Named<String>>,
-        /// Freedoms of joints: their coordinates and rates, and a torque or force along each.
+        /// by name: [freedoms](#a-freedom-of-a-user-force) (degrees of freedom) of joints with coordinates of their
+        /// own, along which it acts
         freedoms: Option<Named<UserFreedom>>,
-        /// Numbers and curves of time.
-        parameters: Option<Named<Function>>,
-        /// Curves that the function looks up.
-        curves: Option<Named<Function>>,
-        /// Variables of its own, integrated with the motion.
+        /// by name: numbers, expressions of parameters, and curves of time, whose value at the current time is given
+        parameters: Option<Named<OverTime<Any>>>,
+        /// by name: curves (named, scaled, or written here) that the function evaluates at any abscissa
+        curves: Option<Named<FunctionOf<Any, Any>>>,
+        /// by name: [state variables](#a-state-of-a-user-force), integrated with the motion
         states: Option<Named<UserState>>,
     }
 }
@@ -49,9 +50,9 @@ record! {
 record! {
     /// A point that the function looks at and acts on.
     UserPoint as "a point of a user force" {
-        /// `frame`, or an element as `system/element`.
+        /// `frame`, a vehicle, or an element as `system/element`; a force on `frame` or a vehicle moves nothing
         on: String,
-        /// `cg`, or the point in the local frame \[m\].
+        /// `cg`, or coordinates in the local frame
         at: Point,
     }
 }
@@ -59,9 +60,9 @@ record! {
 record! {
     /// A straight line between two points.
     UserLine as "a line of a user force" {
-        /// One end.
+        /// one [end](#an-attachment)
         from: Attachment,
-        /// The other end.
+        /// the other end, on another body
         to: Attachment,
     }
 }
@@ -69,9 +70,9 @@ record! {
 record! {
     /// A freedom of a joint.
     UserFreedom as "a freedom of a user force" {
-        /// The element that the joint carries, as `system/element`.
+        /// the element that the joint carries, as `system/element`
         joint: String,
-        /// Of a joint with several freedoms: which.
+        /// required if the joint has several freedoms: which one
         freedom: Option<String>,
     }
 }
@@ -79,8 +80,8 @@ record! {
 record! {
     /// A state variable.
     UserState as "a state of a user force" {
-        /// Value at the start of a run.
-        initial: Quantity,
+        /// value at the start of a run
+        initial: Number<Any>,
     }
 }
 
@@ -89,21 +90,11 @@ impl Keys for User {
     const HAS_PORTS: bool = true;
     const SOURCE: Option<&'static str> = Some("source");
 
-    fn header(&self) -> Header<'_> {
-        Header {
-            name: self.user.clone(),
-            called: Some((Self::KEY, &self.user)),
-            enabled: self.enabled,
-            since: self.since.as_deref(),
-            until: self.until.as_deref(),
-        }
-    }
-
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
         super::check::user(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
     }
 
-    fn records() -> Vec<(&'static str, &'static [Key])> {
+    fn records() -> Vec<(&'static str, Vec<Key>)> {
         vec![
             record::<User>(),
             record::<UserPoint>(),

@@ -5,9 +5,9 @@
 
 use super::Resolver;
 use super::name::Style;
-use super::quantity::Expected;
 use super::switch::active;
 use crate::description::force::LawKeys;
+use crate::description::measure::Expected;
 use crate::description::place::At;
 use crate::description::quantity::Quantity as WrittenQuantity;
 use crate::diagnostic::quoted;
@@ -40,7 +40,9 @@ pub(crate) fn force(
     }
     resolver.owner = format!("{key} {name}");
     resolver.owners.push(resolver.owner.clone());
+    resolver.of_force = true;
     let resolved = check(resolver, at.base());
+    resolver.of_force = false;
     let off = header.enabled == Some(false);
     if off || resolved.is_none() {
         resolver.disabled.push((key, name.clone()));
@@ -98,10 +100,10 @@ impl Resolver<'_> {
                         "add `friction: …`, or remove `friction_speed`",
                     ));
                 }
-                self.number(speed, place, of_speed)
+                self.number_in(speed, place, of_speed)
             }
         };
-        let limit = self.coefficient(limit, at.key("friction"), of_limit)?;
+        let limit = self.coefficient_in(limit, at.key("friction"), of_limit)?;
         Some(Friction { limit, tolerance })
     }
 
@@ -123,7 +125,7 @@ impl Resolver<'_> {
                 "add `friction: …`, or remove `friction_displacement`",
             ));
         }
-        self.coefficient(displacement, place, expected)
+        self.coefficient_in(displacement, place, expected)
             .filter(|_| rubs)
             .map(|displacement| Bristle { displacement })
     }
@@ -147,7 +149,7 @@ impl Resolver<'_> {
                 "add `damping: …`, or remove this key",
             ));
         }
-        self.coefficient(Some(quantity), at, expected)
+        self.coefficient_in(Some(quantity), at, expected)
             .filter(|_| damps)
     }
 }

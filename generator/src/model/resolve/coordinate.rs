@@ -1,9 +1,9 @@
 //! The physical quantities that belong to the coordinate of a degree of freedom.
 
-use super::quantity::{
+use crate::description::joint::Coordinate;
+use crate::description::measure::{
     ANGLE, ANGLE_PER_LENGTH, Expected, INERTIA, LENGTH, LENGTH_PER_ANGLE, MASS, PURE, RATE, SPEED,
 };
-use crate::description::joint::Coordinate;
 
 impl Coordinate {
     /// The physical quantity of a coordinate.

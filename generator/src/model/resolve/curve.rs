@@ -1,15 +1,16 @@
 //! Curves: applies units, checks that abscissae increase, and enters curves that are written in place.
 
 use super::name::Style;
-use super::quantity::{Expected, Measure, PURE, describe};
+use super::quantity::{Measure, describe};
 use super::{AXES, Resolver};
 use crate::description::curve::{
-    Curve as Written, Extrapolate as WrittenExtrapolate, Function,
-    Interpolate as WrittenInterpolate, NameOrCurve, ScaledCurve as WrittenScaled,
+    Curve as Written, Extrapolate as WrittenExtrapolate, Function, FunctionOf,
+    Interpolate as WrittenInterpolate, NameOrCurve, OverTime, ScaledCurve as WrittenScaled,
 };
 use crate::description::load::{beside, channel_key};
+use crate::description::measure::{Expected, Measured as InUnit, OfItsUse, TIME};
 use crate::description::place::{At, Step};
-use crate::description::quantity::Quantity;
+use crate::description::quantity::{Number as WrittenNumber, Quantity};
 use crate::description::slip;
 use crate::description::table::{Column, Columns, Fault, Table};
 use crate::description::tree::MAX_POINTS;
@@ -195,7 +196,7 @@ impl Resolver<'_> {
                 "a constant is a curve through two points of the same ordinate",
             ));
         }
-        let shown = |index: usize| match listed[index].first() {
+        let shown = |index: usize| match listed[index].first().map(|x| &**x) {
             Some(Quantity::Number(x)) => x.to_string(),
             Some(Quantity::Text(text)) => text.clone(),
             _ => String::new(),
@@ -209,7 +210,7 @@ impl Resolver<'_> {
     /// The points of a list, in SI. Points with units determine `measures`; `factors` scale points without units.
     fn listed_points(
         &self,
-        listed: &[Vec<Quantity>],
+        listed: &[Vec<WrittenNumber<OfItsUse>>],
         place: At<'_>,
         measures: &mut [Measure; 2],
         factors: [f64; 2],
@@ -450,8 +451,17 @@ impl Resolver<'_> {
         name
     }
 
+    /// The curve that a key asks for; `None` where it is zero everywhere, or wrong.
+    pub fn function<X: InUnit, Y: InUnit>(
+        &mut self,
+        function: &FunctionOf<X, Y>,
+        at: At<'_>,
+    ) -> Option<ScaledCurve> {
+        self.function_in(function, at, X::EXPECTED, Y::EXPECTED)
+    }
+
     /// The curve that a key asks for, as a function \[`x`\] → \[`y`\]; `None` where it is zero everywhere, or wrong.
-    pub fn function(
+    pub fn function_in(
         &mut self,
         function: &Function,
         at: At<'_>,
@@ -479,10 +489,10 @@ impl Resolver<'_> {
                     }
                 };
                 let stretch = match stretch {
-                    Some(stretch) => self.number(stretch, at.key("stretch"), PURE),
+                    Some(stretch) => self.number(stretch, at.key("stretch")),
                     None => Number::Constant(1.0),
                 };
-                let times = times.as_ref().map(|t| (t, at.key("times")));
+                let times = times.as_deref().map(|t| (t, at.key("times")));
                 let scaled = self.scaled(index, times, at.key("curve"), x, y)?;
                 Some(ScaledCurve { stretch, ..scaled })
             }
@@ -501,24 +511,40 @@ impl Resolver<'_> {
     }
 
     /// A vector whose components are constants or curves of time: \[x, z\] in the plane, \[x, y, z\] in space.
-    pub fn components(
+    pub fn components<Y: InUnit>(
         &mut self,
-        written: &[Function],
+        written: &[OverTime<Y>],
         at: At<'_>,
-        y: Expected,
     ) -> [FieldComponent; 3] {
         let mut components = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
         if self.has_length(written.len(), at) {
             for (index, component) in written.iter().enumerate() {
                 let axis = self.axis(index);
-                components[axis] = self.component(component, at.item(index), y);
+                components[axis] = self.component(component, at.item(index));
             }
         }
         components
     }
 
     /// A constant or a curve of time.
-    pub fn component(&mut self, function: &Function, at: At<'_>, y: Expected) -> FieldComponent {
+    pub fn component<Y: InUnit>(&mut self, written: &OverTime<Y>, at: At<'_>) -> FieldComponent {
+        self.component_in(written, at, Y::EXPECTED)
+    }
+
+    /// A constant or a curve of time; of a force it may depend on inputs.
+    pub fn component_in(&mut self, function: &Function, at: At<'_>, y: Expected) -> FieldComponent {
+        self.inputs_may_stand.set(self.of_force);
+        let component = self.constant_or_curve(function, at, y);
+        self.inputs_may_stand.set(false);
+        component
+    }
+
+    fn constant_or_curve(
+        &mut self,
+        function: &Function,
+        at: At<'_>,
+        y: Expected,
+    ) -> FieldComponent {
         let zero = FieldComponent::Constant(Number::ZERO);
         if let Function::Quantity(quantity) = function {
             let curve = match quantity {
@@ -545,10 +571,10 @@ impl Resolver<'_> {
                     ));
                     return zero;
                 }
-                return FieldComponent::Constant(self.number(quantity, at, y));
+                return FieldComponent::Constant(self.number_in(quantity, at, y));
             }
         }
-        match self.function(function, at, super::quantity::TIME, y) {
+        match self.function_in(function, at, TIME, y) {
             Some(curve) => FieldComponent::Curve(curve),
             None => zero,
         }
@@ -606,7 +632,22 @@ impl Resolver<'_> {
 
     /// The elastic law of a length or an angle: a curve, or the line of a `stiffness`; `None` if there is none. `key`
     /// is the key of the curve.
-    pub fn elastic(
+    pub fn elastic<X: InUnit, Y: InUnit, Slope: InUnit>(
+        &mut self,
+        (key, curve): (&str, Option<&FunctionOf<X, Y>>),
+        stiffness: Option<&WrittenNumber<Slope>>,
+        at: At<'_>,
+    ) -> Option<ScaledCurve> {
+        self.elastic_in(
+            (key, curve.map(|c| &**c)),
+            stiffness.map(|s| &**s),
+            at,
+            [X::EXPECTED, Y::EXPECTED, Slope::EXPECTED],
+        )
+    }
+
+    /// The elastic law of a coordinate with these quantities.
+    pub fn elastic_in(
         &mut self,
         (key, curve): (&str, Option<&Function>),
         stiffness: Option<&Quantity>,
@@ -622,9 +663,9 @@ impl Resolver<'_> {
                 ));
                 None
             }
-            (Some(curve), None) => self.function(curve, at.key(key), x, y),
+            (Some(curve), None) => self.function_in(curve, at.key(key), x, y),
             (None, Some(stiffness)) => {
-                let slope = self.number(stiffness, place, slope);
+                let slope = self.number_in(stiffness, place, slope);
                 self.line(place, slope)
             }
             (None, None) => None,

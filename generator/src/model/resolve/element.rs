@@ -2,11 +2,11 @@
 
 use super::follows::couple;
 use super::joint::joint_of;
-use super::quantity::{ANGLE, INERTIA, LENGTH, MASS};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::Element as Written;
+use crate::description::measure::Inertia;
 use crate::description::place::At;
-use crate::description::quantity::OneOrThree;
+use crate::description::quantity::{Number as WrittenNumber, OneOrThree};
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::requirement::ROUNDING;
 use crate::model::{Element, Number};
@@ -214,11 +214,11 @@ fn element(
     parent: Option<usize>,
     here: At<'_>,
 ) -> Element {
-    let mass = resolver.number(&written.mass, here.key("mass"), MASS);
+    let mass = resolver.number(&written.mass, here.key("mass"));
     let tensor = tensor(resolver, &written.inertia, here.key("inertia"));
     let inertia = match &tensor {
         Some((moments, _)) => moments.clone(),
-        None => resolver.rotation(&written.inertia, here.key("inertia"), INERTIA),
+        None => resolver.rotation(&written.inertia, here.key("inertia")),
     };
     let axes = match &written.axes {
         None => tensor.map_or(NOWHERE, |(_, axes)| axes),
@@ -236,18 +236,18 @@ fn element(
             ));
             NOWHERE
         }
-        Some(axes) => resolver.vector(axes, here.key("axes"), ANGLE),
+        Some(axes) => resolver.vector(axes, here.key("axes")),
     };
     let element = Element {
         name: written.name.clone(),
         parent,
         at: match (&written.at, &written.on) {
-            (Some(at), Some(_)) => resolver.vector(at, here.key("at"), LENGTH),
+            (Some(at), Some(_)) => resolver.vector(at, here.key("at")),
             _ => NOWHERE,
         },
         joint: joint_of(resolver, written.joint.as_ref(), here.key("joint")),
         mass,
-        cg: resolver.vector(&written.cg, here.key("cg"), LENGTH),
+        cg: resolver.vector(&written.cg, here.key("cg")),
         inertia,
         axes,
         angles: NOWHERE,
@@ -262,7 +262,7 @@ fn element(
 /// `inertia` is not a list of six.
 fn tensor(
     resolver: &Resolver<'_>,
-    written: &OneOrThree,
+    written: &OneOrThree<WrittenNumber<Inertia>>,
     here: At<'_>,
 ) -> Option<([Number; 3], [Number; 3])> {
     let OneOrThree::List(list) = written else {
@@ -274,7 +274,7 @@ fn tensor(
     let mut entries = [0.0; 6];
     for (index, entry) in entries.iter_mut().enumerate() {
         let place = here.item(index);
-        match resolver.number(&list[index], place, INERTIA).constant() {
+        match resolver.number(&list[index], place).constant() {
             Some(constant) => *entry = constant,
             None => resolver.problems.add(place.problem(
                 "a tensor of six numbers cannot depend on parameters",

@@ -131,11 +131,11 @@ fn leader(
         element: leader,
         freedom: followed,
         ratio: match &written.ratio {
-            Some(written) => resolver.number(written, at.key("ratio"), ratio),
+            Some(written) => resolver.number_in(written, at.key("ratio"), ratio),
             None => Number::Constant(1.0),
         },
         offset: match &written.offset {
-            Some(written) => resolver.number(written, at.key("offset"), own.value()),
+            Some(written) => resolver.number_in(written, at.key("offset"), own.value()),
             None => Number::ZERO,
         },
     })

@@ -59,7 +59,10 @@ pub(super) fn formula(
             resolver.problems.add(problem);
         };
         if resolver.parameters.iter().any(|p| p.name == name) && !above.iter().any(|h| h == name) {
-            let (number, measure) = resolver.parameter(name, place, offset, length)?;
+            resolver.inputs_may_stand.set(true);
+            let found = resolver.parameter(name, place, offset, length);
+            resolver.inputs_may_stand.set(false);
+            let (number, measure) = found?;
             return Some((leaf(Leaf::Number(number)), measure));
         }
         output(name, &report)

@@ -1,8 +1,8 @@
 //! Hysteresis: curves of unloading, and the steep line between loading and unloading.
 
 use super::Resolver;
-use super::quantity::Expected;
 use crate::description::curve::Function;
+use crate::description::measure::Expected;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::model::unloading;
@@ -47,10 +47,12 @@ impl Resolver<'_> {
             }
         }
         let before = self.problems.count();
-        let curve = written.curve.and_then(|u| self.function(u, curve_at, x, y));
+        let curve = written
+            .curve
+            .and_then(|u| self.function_in(u, curve_at, x, y));
         let slope = written
             .slope
-            .and_then(|s| self.coefficient(Some(s), slope_at, of_slope));
+            .and_then(|s| self.coefficient_in(Some(s), slope_at, of_slope));
         let loading = loading?;
         if self.problems.count() > before
             || (written.curve.is_none() && slope.is_none())

@@ -2,13 +2,13 @@
 //! is said by the files of [kinds](crate::joint).
 
 use super::name::Style;
-use super::quantity::{Expected, PURE};
 use super::{NOWHERE, Resolver, unit};
 use crate::description::joint::{
     Axis, Freedom as Written, Joint as WrittenJoint, JointKey, JointWord,
 };
+use crate::description::measure::Expected;
 use crate::description::place::At;
-use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::quantity::{Number as WrittenNumber, OneOrThree, Quantity};
 use crate::description::shape::Shape;
 use crate::diagnostic::{nearest, quoted};
 use crate::model::{Coordinate, FreedomKind, Number};
@@ -172,7 +172,10 @@ impl<'r> Reader<'r> {
     /// The number in the value of a key.
     pub fn number(&self, key: &str, expected: Expected) -> Option<Number> {
         let quantity: Quantity = self.value(key)?;
-        Some(self.resolver.number(&quantity, self.at.key(key), expected))
+        Some(
+            self.resolver
+                .number_in(&quantity, self.at.key(key), expected),
+        )
     }
 
     /// The place of the value of the key.
@@ -222,7 +225,7 @@ impl<'r> Reader<'r> {
             Axis::Vector(written) => written,
         };
         let before = resolver.problems.count();
-        let vector = resolver.vector(written, at, PURE);
+        let vector = resolver.vector(written, at);
         if resolver.problems.count() > before {
             return Direction::unnamed(0);
         }
@@ -317,7 +320,7 @@ fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<
     check_keys(resolver, written, spelling, at);
     let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
         match (value, spelling.written.coordinates) {
-            (Some(value), [one]) => resolver.number(value, at.key(key), expected(*one)),
+            (Some(value), [one]) => resolver.number_in(value, at.key(key), expected(*one)),
             // a joint of several degrees of freedom refuses this key
             _ => Number::ZERO,
         }
@@ -436,20 +439,14 @@ fn named(resolver: &Resolver<'_>, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint 
 }
 
 /// Coordinates or rates at the start of the degrees of freedom of a joint, as one value or a list.
-pub(crate) fn freedoms_at_start(
+pub(crate) fn freedoms_at_start<U>(
     resolver: &Resolver<'_>,
     (path, freedoms): (&str, &mut [Freedom]),
-    written: &OneOrThree,
+    written: &OneOrThree<WrittenNumber<U>>,
     rates: bool,
     at: At<'_>,
 ) {
-    let values: Vec<(&Quantity, At<'_>)> = match written {
-        OneOrThree::One(one) => vec![(one, at)],
-        OneOrThree::List(list) => {
-            let items = list.iter().enumerate();
-            items.map(|(i, one)| (one, at.item(i))).collect()
-        }
-    };
+    let values = written.each(at);
     let following = freedoms.iter().any(|f| !f.is_own());
     let freedoms: Vec<&mut Freedom> = freedoms.iter_mut().filter(|f| f.is_own()).collect();
     if freedoms.len() != values.len() {
@@ -473,8 +470,8 @@ pub(crate) fn freedoms_at_start(
     for (freedom, (value, at)) in freedoms.into_iter().zip(values) {
         let coordinate = freedom.kind.coordinate();
         match rates {
-            true => freedom.rate = resolver.number(value, at, coordinate.rate()),
-            false => freedom.position = resolver.number(value, at, coordinate.value()),
+            true => freedom.rate = resolver.number_in(value, at, coordinate.rate()),
+            false => freedom.position = resolver.number_in(value, at, coordinate.value()),
         }
     }
 }

@@ -31,14 +31,16 @@ pub trait Keys: Record {
     /// The key of a Rust file that belongs to a force.
     const SOURCE: Option<&'static str> = None;
 
-    /// The keys that all laws have.
-    fn header(&self) -> Header<'_>;
+    /// The keys that all laws have, of the force that was read from `value`.
+    fn header<'v>(&'v self, value: &'v Value) -> Header<'v> {
+        Header::read(value, Self::KEY)
+    }
 
     /// The checked form. Problems are reported; `None` if they leave no useful law.
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>>;
 
     /// The records of the law's keys, in the order of the reference page.
-    fn records() -> Vec<(&'static str, &'static [Key])>;
+    fn records() -> Vec<(&'static str, Vec<Key>)>;
 
     /// Turns a copy of the force, apart from its name, into its mirror image.
     fn mirror(_: &Expander<'_>, _image: &mut Node) {}
@@ -66,6 +68,21 @@ pub struct Header<'a> {
     pub until: Option<&'a str>,
 }
 
+impl<'v> Header<'v> {
+    /// The keys of a force whose name stands under `key`.
+    pub fn read(value: &'v Value, key: &'static str) -> Self {
+        let text = |key: &str| value.get(key).and_then(Value::as_str);
+        let name = text(key);
+        Header {
+            name: name.unwrap_or_default().to_owned(),
+            called: name.map(|name| (key, name)),
+            enabled: value.get("enabled").and_then(Value::as_bool),
+            since: text("since"),
+            until: text("until"),
+        }
+    }
+}
+
 /// A law as the language knows it, and how a force of it is read.
 pub(crate) struct Registered {
     /// The law as the language knows it.
@@ -82,6 +99,7 @@ impl Registered {
                 key: K::KEY,
                 title: K::TITLE,
                 shape: check_record::<K>,
+                schema: K::schema,
                 records: K::records,
                 image: K::image,
                 twice: K::TWICE,
@@ -100,15 +118,15 @@ fn enter<K: Keys + Shape>(
     at: At<'_>,
 ) -> Result<(), Misfit> {
     let written = K::read(value)?;
-    let header = written.header();
+    let header = written.header(value);
     let check = |resolver: &mut Resolver<'_>, at: At<'_>| written.check(resolver, at);
     force(resolver, K::KEY, &header, &check, at);
     Ok(())
 }
 
 /// The title of a record, and its keys.
-pub(crate) fn record<R: Record>() -> (&'static str, &'static [Key]) {
-    (R::TITLE, R::KEYS)
+pub(crate) fn record<R: Record>() -> (&'static str, Vec<Key>) {
+    (R::TITLE, R::keys())
 }
 
 /// The outputs of a checked law, and its remarks on the start of a run: what needs the rest of the model.

@@ -1,11 +1,11 @@
 //! Meshes: which body shows which file or shape, how large, and where on it. Files are not read here: what is shown has no influence.
 
 use super::Resolver;
-use super::quantity::{ANGLE, Expected, LENGTH, PURE};
 use crate::description::load::Loaded;
+use crate::description::measure::Measured;
 use crate::description::mesh::{Mesh as Written, Meshes};
 use crate::description::place::At;
-use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::quantity::{Number as WrittenNumber, OneOrThree};
 use crate::model::{Body, Mesh, Shown, Triangles};
 
 impl Resolver<'_> {
@@ -54,9 +54,7 @@ impl Resolver<'_> {
             }
         };
         let size = match (&written.size, &of) {
-            (Some(size), Triangles::Solid(_)) => {
-                self.three(size, [true; 3], at.key("size"), LENGTH)?
-            }
+            (Some(size), Triangles::Solid(_)) => self.three(size, [true; 3], at.key("size"))?,
             (None, Triangles::File(_)) => [1.0; 3],
             (Some(_), Triangles::File(_)) => {
                 let help = "write a factor on the numbers of the file: `scale`";
@@ -78,7 +76,7 @@ impl Resolver<'_> {
             ));
         }
         let scale = match &written.scale {
-            Some(scale) => self.three(scale, [true; 3], at.key("scale"), PURE)?,
+            Some(scale) => self.three(scale, [true; 3], at.key("scale"))?,
             None => [1.0; 3],
         };
         if scale.contains(&0.0) {
@@ -88,11 +86,11 @@ impl Resolver<'_> {
             ));
         }
         let place = match &written.at {
-            Some(at_body) => self.vector(at_body, at.key("at"), LENGTH),
+            Some(at_body) => self.vector(at_body, at.key("at")),
             None => super::NOWHERE,
         };
         let angles = match &written.angles {
-            Some(angles) => self.three(angles, [false, true, false], at.key("angles"), ANGLE)?,
+            Some(angles) => self.three(angles, [false, true, false], at.key("angles"))?,
             None => [0.0; 3],
         };
         let place = place.map(|number| number.value(&self.defaults));
@@ -109,15 +107,13 @@ impl Resolver<'_> {
     }
 
     /// Three numbers, also in the plane; or one number, for the axes in `of_one`.
-    fn three(
+    fn three<U: Measured>(
         &self,
-        written: &OneOrThree,
+        written: &OneOrThree<WrittenNumber<U>>,
         of_one: [bool; 3],
         at: At<'_>,
-        expected: Expected,
     ) -> Option<[f64; 3]> {
-        let value =
-            |quantity: &Quantity, at| self.number(quantity, at, expected).value(&self.defaults);
+        let value = |written, at| self.number(written, at).value(&self.defaults);
         match written {
             OneOrThree::One(one) => {
                 let one = value(one, at);

@@ -60,8 +60,8 @@ use crate::diagnostic::{Diagnostics, quoted, suggestion};
 use crate::model::units::{Unit, UnitSystem, Units};
 use joint::{Spelling, Word};
 use name::Style;
-use quantity::LENGTH;
 use regularity::check_regularity;
+use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -174,6 +174,11 @@ pub struct Resolver<'a> {
     pub(crate) loaded: &'a Loaded,
     /// The part of the description that is being resolved; names of its curves are made from this: "belt lap".
     pub(crate) owner: String,
+    /// True while a force is read.
+    pub(crate) of_force: bool,
+    /// True while a number is read that may depend on inputs: forces, thresholds and formulas follow them at once, but
+    /// nothing else may change during a run.
+    pub(crate) inputs_may_stand: Cell<bool>,
 }
 
 impl<'a> Resolver<'a> {
@@ -188,6 +193,8 @@ impl<'a> Resolver<'a> {
             measures: Vec::new(),
             failed_parameters: Vec::new(),
             owner: String::new(),
+            of_force: false,
+            inputs_may_stand: Cell::new(false),
             curves: Vec::new(),
             curve_names: Vec::new(),
             vehicles: Vec::new(),
@@ -319,15 +326,22 @@ impl<'a> Resolver<'a> {
     /// Enters parameters and named curves.
     fn enter_numbers(&mut self, loaded: &Loaded) {
         for file in &loaded.files {
-            let at = file.source.at().key("parameters");
-            for (name, written) in file.contents.parameters.iter().flat_map(|p| &p.0) {
-                match parameter::parameter(self, name, &written.0, at.key(name)) {
-                    Some((parameter, measure)) => {
-                        self.defaults.push(parameter.default);
-                        self.parameters.push(parameter);
-                        self.measures.push(measure);
+            let contents = &file.contents;
+            for (key, of) in [
+                ("parameters", &contents.parameters),
+                ("inputs", &contents.inputs),
+            ] {
+                let at = file.source.at().key(key);
+                for (name, written) in of.iter().flat_map(|p| &p.0) {
+                    let is_input = key == "inputs";
+                    match parameter::parameter(self, name, &written.0, at.key(name), is_input) {
+                        Some((parameter, measure)) => {
+                            self.defaults.push(parameter.default);
+                            self.parameters.push(parameter);
+                            self.measures.push(measure);
+                        }
+                        None => self.failed_parameters.push(name.to_owned()),
                     }
-                    None => self.failed_parameters.push(name.to_owned()),
                 }
             }
         }
@@ -491,7 +505,7 @@ impl<'a> Resolver<'a> {
 
     /// A point on a body.
     pub(crate) fn end(&self, written: &WrittenEnd, at: At<'_>) -> Option<Attachment> {
-        let position = self.vector(&written.at, at.key("at"), LENGTH);
+        let position = self.vector(&written.at, at.key("at"));
         self.body(&written.on, at.key("on"))
             .map(|on| Attachment { on, at: position })
     }
@@ -500,7 +514,7 @@ impl<'a> Resolver<'a> {
     pub(crate) fn point(&self, written: &Point, id: ElementId, at: At<'_>) -> [Number; 3] {
         match written {
             Point::Cg => self.systems[id.system].elements[id.element].cg.clone(),
-            Point::At(point) => self.vector(point, at, LENGTH),
+            Point::At(point) => self.vector(point, at),
         }
     }
 

@@ -2,7 +2,6 @@
 
 use super::channel::{self, Wanted};
 use super::joint::freedom_named;
-use super::quantity::LENGTH;
 use super::units::unit_shown;
 use super::vehicle::vehicle_named;
 use super::{NOWHERE, Resolver};
@@ -524,7 +523,7 @@ impl Resolver<'_> {
                 Some(self.point(point.as_ref().unwrap_or(&Point::Cg), id, place))
             }
             (_, None) => Some(NOWHERE),
-            (_, Some(Point::At(point))) => Some(self.vector(point, place, LENGTH)),
+            (_, Some(Point::At(point))) => Some(self.vector(point, place)),
             (_, Some(Point::Cg)) => {
                 self.problems.add(place.problem(
                     "a vehicle has no mass, and so no centre of gravity",

@@ -8,12 +8,13 @@ use crate::description::quantity::Quantity;
 use crate::diagnostic::quoted;
 use crate::model::Parameter;
 
-/// The checked form of a parameter, and its dimension.
+/// The checked form of a parameter or an input, and its dimension.
 pub(super) fn parameter(
     resolver: &Resolver<'_>,
     name: &str,
     written: &Written,
     at: At<'_>,
+    input: bool,
 ) -> Option<(Parameter, Measure)> {
     if !resolver.check_parameter_name(name, at) {
         return None;
@@ -25,11 +26,14 @@ pub(super) fn parameter(
     let value_at = at.key("value");
     let (value, measure) =
         resolver.constant(&written.value, value_at, "the value of a parameter")?;
-    let bound = |quantity: &Option<Quantity>, key| match quantity {
+    let bound = |quantity: Option<&Quantity>, key| match quantity {
         None => Some(None),
         Some(quantity) => bound(resolver, quantity, measure, at.key(key)).map(Some),
     };
-    let (min, max) = (bound(&written.min, "min"), bound(&written.max, "max"));
+    let (min, max) = (
+        bound(written.min.as_deref(), "min"),
+        bound(written.max.as_deref(), "max"),
+    );
     let (min, max) = (min?, max?);
     if let (Some(min), Some(max)) = (min, max)
         && min > max
@@ -68,6 +72,7 @@ pub(super) fn parameter(
             min,
             max,
             unit,
+            input,
         },
         match measure {
             Measure::Bare => Measure::Unknown,

@@ -5,8 +5,9 @@
 
 use super::Resolver;
 use crate::description::expression::{self, Expression, Function, Kind, Operator};
+use crate::description::measure::{ACCELERATION, Expected, Measured};
 use crate::description::place::At;
-use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::quantity::{Number as WrittenNumber, OneOrThree, Quantity};
 use crate::description::slip;
 use crate::description::unit::Dimension;
 use crate::diagnostic::{quoted, suggestion};
@@ -26,79 +27,6 @@ pub enum Measure {
 /// Returns the meaning of a name in an expression, given the name, the position of its first character and its length;
 /// `None` if the name is wrong, which is reported.
 pub type Names<'a> = &'a dyn Fn(&str, usize, usize) -> Option<(Number, Measure)>;
-
-/// The physical quantity that a key expects.
-#[derive(Clone, Copy, Debug)]
-pub struct Expected {
-    /// Name with its article ("a mass").
-    pub name: &'static str,
-    /// Its dimension.
-    pub dimension: Dimension,
-}
-
-macro_rules! expected {
-    ($($constant:ident = $name:literal [$m:literal $kg:literal $s:literal $rad:literal];)*) => {
-        $(pub const $constant: Expected = Expected { name: $name, dimension: Dimension::new($m, $kg, $s, $rad) };)*
-    };
-}
-
-expected! {
-    LENGTH = "a length" [1 0 0 0];
-    TIME = "a time" [0 0 1 0];
-    MASS = "a mass" [0 1 0 0];
-    INERTIA = "a moment of inertia" [2 1 0 0];
-    ANGLE = "an angle" [0 0 0 1];
-    SPEED = "a speed" [1 0 -1 0];
-    RATE = "an angular velocity" [0 0 -1 1];
-    ACCELERATION = "an acceleration" [1 0 -2 0];
-    FORCE = "a force" [1 1 -2 0];
-    TORQUE = "a torque" [2 1 -2 0];
-    MOMENT = "a moment" [2 1 -2 0];
-    STIFFNESS = "a stiffness" [0 1 -2 0];
-    LINEAR_DAMPING = "a damping coefficient" [0 1 -1 0];
-    ANGULAR_STIFFNESS = "a stiffness" [2 1 -2 -1];
-    ANGULAR_DAMPING = "a damping coefficient" [2 1 -1 -1];
-    PURE = "a pure number" [0 0 0 0];
-    LENGTH_PER_ANGLE = "a length per angle" [1 0 0 -1];
-    ANGLE_PER_LENGTH = "an angle per length" [-1 0 0 1];
-    FRICTION = "a coefficient of friction" [0 0 0 0];
-    AREA = "an area" [2 0 0 0];
-    PRESSURE = "a pressure" [-1 1 -2 0];
-    MASS_FLOW = "a mass per time" [0 1 -1 0];
-}
-
-/// An absolute temperature.
-pub const TEMPERATURE: Expected = Expected {
-    name: "a temperature",
-    dimension: Dimension::ONE.kelvin(1),
-};
-
-/// The specific gas constant R.
-pub const GAS_CONSTANT: Expected = Expected {
-    name: "a gas constant",
-    dimension: Dimension::new(2, 0, -2, 0).kelvin(-1),
-};
-
-/// Accepts any dimension; its own powers belong to no unit.
-pub const ANY: Expected = Expected {
-    name: "anything",
-    dimension: Dimension::new(i32::MAX, i32::MAX, i32::MAX, 0),
-};
-
-impl Expected {
-    /// True if a quantity of this dimension is accepted.
-    pub fn accepts(&self, dimension: Dimension) -> bool {
-        self.dimension == ANY.dimension || self.dimension == dimension
-    }
-
-    /// The SI unit, in words.
-    fn unit(&self) -> String {
-        match self.dimension.to_string() {
-            unit if unit.is_empty() => "no unit".to_owned(),
-            unit => unit,
-        }
-    }
-}
 
 impl Resolver<'_> {
     /// The number and what is known about its dimension; `None` after a reported problem.
@@ -135,8 +63,13 @@ impl Resolver<'_> {
         Some((number, measure))
     }
 
+    /// The number, which must have the dimension of its unit; 0 after a reported problem.
+    pub fn number<U: Measured>(&self, written: &WrittenNumber<U>, at: At<'_>) -> Number {
+        self.number_in(written, at, U::EXPECTED)
+    }
+
     /// The number, which must have the expected dimension; 0 after a reported problem.
-    pub fn number(&self, quantity: &Quantity, at: At<'_>, expected: Expected) -> Number {
+    pub fn number_in(&self, quantity: &Quantity, at: At<'_>, expected: Expected) -> Number {
         let Some((number, measure)) = self.measured(quantity, at) else {
             return Number::ZERO;
         };
@@ -176,26 +109,34 @@ impl Resolver<'_> {
 
     /// The number as by [`number`](Self::number), with its value at the default parameters; no value after a reported
     /// problem.
-    pub fn valued(
+    pub fn valued<U: Measured>(
         &self,
-        quantity: &Quantity,
+        written: &WrittenNumber<U>,
         at: At<'_>,
-        expected: Expected,
     ) -> (Number, Option<f64>) {
         let before = self.problems.count();
-        let number = self.number(quantity, at, expected);
+        let number = self.number(written, at);
         let value = number.value(&self.defaults);
         (number, (self.problems.count() == before).then_some(value))
     }
 
     /// A coefficient; `None` if it is 0 or missing.
-    pub fn coefficient(
+    pub fn coefficient<U: Measured>(
+        &self,
+        written: Option<&WrittenNumber<U>>,
+        at: At<'_>,
+    ) -> Option<Number> {
+        self.coefficient_in(written.map(|w| &**w), at, U::EXPECTED)
+    }
+
+    /// A coefficient of the expected dimension; `None` if it is 0 or missing.
+    pub fn coefficient_in(
         &self,
         quantity: Option<&Quantity>,
         at: At<'_>,
         expected: Expected,
     ) -> Option<Number> {
-        let number = self.number(quantity?, at, expected);
+        let number = self.number_in(quantity?, at, expected);
         (!number.is_zero()).then_some(number)
     }
 
@@ -239,13 +180,13 @@ impl Resolver<'_> {
     }
 
     /// A vector: \[x, z\] in the plane, \[x, y, z\] in space.
-    pub fn vector(&self, entries: &[Quantity], at: At<'_>, expected: Expected) -> [Number; 3] {
+    pub fn vector<U: Measured>(&self, entries: &[WrittenNumber<U>], at: At<'_>) -> [Number; 3] {
         if !self.has_length(entries.len(), at) {
             return [Number::ZERO; 3];
         }
         let mut vector = [Number::ZERO; 3];
         for (index, entry) in entries.iter().enumerate() {
-            vector[self.axis(index)] = self.number(entry, at.item(index), expected);
+            vector[self.axis(index)] = self.number(entry, at.item(index));
         }
         vector
     }
@@ -272,10 +213,14 @@ impl Resolver<'_> {
     }
 
     /// Moments, angles or rates about axes: one about y in the plane, three in space.
-    pub fn rotation(&self, value: &OneOrThree, at: At<'_>, expected: Expected) -> [Number; 3] {
+    pub fn rotation<U: Measured>(
+        &self,
+        value: &OneOrThree<WrittenNumber<U>>,
+        at: At<'_>,
+    ) -> [Number; 3] {
         let mut rotation = [Number::ZERO; 3];
-        for (axis, component, at) in self.about_axes(value, at, expected) {
-            rotation[axis] = self.number(component, at, expected);
+        for (axis, component, at) in self.about_axes(value, at, U::EXPECTED) {
+            rotation[axis] = self.number(component, at);
         }
         rotation
     }
@@ -334,6 +279,15 @@ impl Resolver<'_> {
         length: usize,
     ) -> Option<(Number, Measure)> {
         match self.parameters.iter().position(|p| p.name == name) {
+            Some(index) if self.parameters[index].input && !self.inputs_may_stand.get() => {
+                self.problems.add(at.text_problem(
+                    offset,
+                    length,
+                    format!("{} is an input, which changes during a run", quoted(name)),
+                    "inputs stand in motors, targets of drives, loads, accelerations of fields, parameters of user forces, thresholds of switches and formulas; make it a parameter to use it here",
+                ));
+                None
+            }
             Some(index) => Some((Number::Parameter(index), self.measures[index])),
             // the problem in the declaration of the parameter has been reported
             None if self.failed_parameters.iter().any(|p| p == name) => None,

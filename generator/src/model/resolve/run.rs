@@ -1,7 +1,8 @@
 //! Duration and sampling of a run.
 
 use super::Resolver;
-use super::quantity::{Measure, TIME, describe};
+use super::quantity::{Measure, describe};
+use crate::description::measure::TIME;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
 use crate::description::run::Run as Written;
@@ -21,11 +22,11 @@ pub(super) fn run(resolver: &Resolver<'_>, written: Option<&Written>, at: At<'_>
         Some(run) => (
             time(
                 resolver,
-                run.duration.as_ref(),
+                run.duration.as_deref(),
                 at.key("duration"),
                 DURATION,
             ),
-            time(resolver, run.every.as_ref(), at.key("every"), EVERY),
+            time(resolver, run.every.as_deref(), at.key("every"), EVERY),
         ),
         None => (DURATION, EVERY),
     };

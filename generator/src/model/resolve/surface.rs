@@ -1,10 +1,10 @@
 //! The surfaces of a description: ellipsoids, and planes with their directions and edges.
 
 use super::name::Style;
-use super::quantity::{ANGLE, LENGTH, PURE};
 use super::{NOWHERE, Resolver, unit};
+use crate::description::measure::Pure;
 use crate::description::place::At;
-use crate::description::quantity::{OneOrThree, Quantity};
+use crate::description::quantity::{Number as WrittenNumber, OneOrThree};
 use crate::description::surface::{
     EdgeRule as WrittenRule, Ellipsoid as WrittenEllipsoid, Plane as Written, Surface,
 };
@@ -42,11 +42,11 @@ pub(crate) fn ellipsoid(
 ) -> Option<Ellipsoid> {
     let center = Attachment {
         on: resolver.body(&written.on, at.key("on"))?,
-        at: resolver.vector(&written.center, at.key("center"), LENGTH),
+        at: resolver.vector(&written.center, at.key("center")),
     };
-    let semi_axes = resolver.vector(&written.semi_axes, at.key("semi_axes"), LENGTH);
+    let semi_axes = resolver.vector(&written.semi_axes, at.key("semi_axes"));
     let axes = match &written.axes {
-        Some(axes) => resolver.rotation(axes, at.key("axes"), ANGLE),
+        Some(axes) => resolver.rotation(axes, at.key("axes")),
         None => NOWHERE,
     };
     Some(Ellipsoid {
@@ -57,9 +57,13 @@ pub(crate) fn ellipsoid(
 }
 
 /// The degree of an ellipsoid; 2 if none is written.
-pub(crate) fn degree(resolver: &Resolver<'_>, written: Option<&Quantity>, at: At<'_>) -> u32 {
+pub(crate) fn degree(
+    resolver: &Resolver<'_>,
+    written: Option<&WrittenNumber<Pure>>,
+    at: At<'_>,
+) -> u32 {
     let Some(quantity) = written else { return 2 };
-    let (number, value) = resolver.valued(quantity, at, PURE);
+    let (number, value) = resolver.valued(quantity, at);
     let Some(value) = value else { return 2 };
     let even = value % 2.0 == 0.0 && (2.0..=MAX_DEGREE).contains(&value);
     if number.constant().is_none() {
@@ -83,7 +87,7 @@ pub(crate) fn degree(resolver: &Resolver<'_>, written: Option<&Quantity>, at: At
 /// The checked form of a plane.
 pub(crate) fn plane(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Plane> {
     let on = resolver.body(&written.on, at.key("on"));
-    let point = resolver.vector(&written.at, at.key("at"), LENGTH);
+    let point = resolver.vector(&written.at, at.key("at"));
     let normal = normal(resolver, written, at.key("normal"));
     let tangent = tangent(resolver, &normal, written, at);
     let extent = extent(resolver, written, at);
@@ -98,7 +102,7 @@ pub(crate) fn plane(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> O
 /// The normal, scaled to length 1. Its components may be lengths or pure numbers, as only their ratio matters.
 fn normal(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> [Number; 3] {
     let before = resolver.problems.count();
-    let vector = resolver.vector(&plane.normal, at, PURE);
+    let vector = resolver.vector(&plane.normal, at);
     match resolver.problems.count() > before {
         true => vector,
         false => unit(resolver, vector),
@@ -125,7 +129,7 @@ fn tangent(
     }
     let before = resolver.problems.count();
     let along = match &plane.along {
-        Some(along) => resolver.vector(along, place, PURE),
+        Some(along) => resolver.vector(along, place),
         None => {
             let size = |axis: &usize| normal[*axis].value(&resolver.defaults).abs();
             let across = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)));
@@ -171,14 +175,7 @@ fn extent(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> Option<Extent
         return None;
     };
     let right = if resolver.planar { 1 } else { 2 };
-    let lengths: Vec<(&Quantity, At<'_>)> = match written {
-        OneOrThree::One(one) => vec![(one, extent_at)],
-        OneOrThree::List(list) => list
-            .iter()
-            .enumerate()
-            .map(|(i, length)| (length, extent_at.item(i)))
-            .collect(),
-    };
+    let lengths = written.each(extent_at);
     if lengths.len() != right || (resolver.planar && matches!(written, OneOrThree::List(_))) {
         resolver.problems.add(if resolver.planar {
             extent_at.problem(
@@ -196,7 +193,7 @@ fn extent(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> Option<Extent
     let before = resolver.problems.count();
     let half_lengths: Vec<Number> = lengths
         .into_iter()
-        .map(|(length, place)| resolver.number(length, place, LENGTH))
+        .map(|(length, place)| resolver.number(length, place))
         .collect();
     let (rule, width) = match &plane.edge {
         Some(edge) => (edge.rule, edge.width.as_ref()),
@@ -216,7 +213,7 @@ fn extent(resolver: &Resolver<'_>, plane: &Written, at: At<'_>) -> Option<Extent
             let narrow = |width, half: &Number| Number::smaller(width, half.clone());
             EdgeRule::Fade(half_lengths.iter().fold(EDGE_WIDTH.into(), narrow))
         }
-        (_, Some(width)) => EdgeRule::Fade(resolver.number(width, width_at, LENGTH)),
+        (_, Some(width)) => EdgeRule::Fade(resolver.number(width, width_at)),
     };
     (resolver.problems.count() == before).then_some(Extent { half_lengths, rule })
 }

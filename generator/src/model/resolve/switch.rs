@@ -3,9 +3,9 @@
 
 use super::Resolver;
 use super::name::Style;
-use super::quantity::{Expected, TIME};
 use crate::description::expression::{Kind, parse};
 use crate::description::load::Loaded;
+use crate::description::measure::Expected;
 use crate::description::output::Output as Looked;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
@@ -82,7 +82,7 @@ pub(super) fn active(
 
 /// The checked form of a switch.
 fn switch(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Switch> {
-    let after = resolver.coefficient(written.after.as_ref(), at.key("after"), TIME);
+    let after = resolver.coefficient(written.after.as_ref(), at.key("after"));
     let (trigger, shown) = trigger(resolver, &written.when, at.key("when"))?;
     let switch = Switch {
         name: written.switch.clone(),
@@ -111,7 +111,7 @@ fn trigger(
                 ));
             }
         }
-        let time = Trigger::Time(resolver.number(time, at.key("time"), TIME));
+        let time = Trigger::Time(resolver.number(time, at.key("time")));
         return Some((time, ("s".to_owned(), 1.0)));
     }
     let (Some(of), Some(what)) = (&written.of, &written.what) else {
@@ -164,7 +164,9 @@ fn trigger(
         dimension: product(unit).map_or(Dimension::ONE, |unit| unit.dimension),
     };
     let shown = written_in(threshold).unwrap_or((unit.to_owned(), 1.0));
-    let threshold = resolver.number(threshold, at.key(key), expected);
+    resolver.inputs_may_stand.set(true);
+    let threshold = resolver.number_in(threshold, at.key(key), expected);
+    resolver.inputs_may_stand.set(false);
     let trigger = match key {
         "above" => Trigger::Above(quantity, threshold),
         _ => Trigger::Below(quantity, threshold),

@@ -4,14 +4,13 @@ use super::channel::{Anatomy as BodyAxes, BodyPart};
 use super::element::tree;
 use super::follows::start_followers;
 use super::joint::freedoms_at_start;
-use super::quantity::{ANGLE, LENGTH, RATE, SPEED};
-use super::translation::{Ways, translation};
+use super::translation::translation;
 use super::vehicle::{ridden_at_start, vehicle_named};
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::Anatomy;
 use crate::description::load::Loaded;
 use crate::description::place::At;
-use crate::description::quantity::OneOrThree;
+use crate::description::quantity::{Number as WrittenNumber, OneOrThree};
 use crate::description::shape::Named;
 use crate::description::system::{
     Prescribed, Reference as WrittenReference, Riding, Start, System as Written,
@@ -196,40 +195,48 @@ fn system(resolver: &mut Resolver<'_>, entry: &Entry<'_>) -> System {
 /// Sets the state of a system at the start.
 fn begin(resolver: &Resolver<'_>, system: &mut System, start: &Start, at: At<'_>) {
     if let Some(position) = &start.position {
-        system.position = resolver.vector(position, at.key("position"), LENGTH);
+        system.position = resolver.vector(position, at.key("position"));
     }
     if let Some(velocity) = &start.velocity {
-        system.velocity = resolver.vector(velocity, at.key("velocity"), SPEED);
+        system.velocity = resolver.vector(velocity, at.key("velocity"));
     }
     for (element, value, here) in
         per_element(resolver, system, start.angles.as_ref(), at.key("angles"))
     {
         if is_ball(resolver, system, element, here, "joints") {
-            system.elements[element].angles = resolver.rotation(value, here, ANGLE);
+            system.elements[element].angles = resolver.rotation(value, here);
         }
     }
     for (element, value, here) in
         per_element(resolver, system, start.rates.as_ref(), at.key("rates"))
     {
         if is_ball(resolver, system, element, here, "joint_rates") {
-            system.elements[element].angular_velocity = resolver.rotation(value, here, RATE);
+            system.elements[element].angular_velocity = resolver.rotation(value, here);
         }
     }
-    for (key, entries) in [
-        ("joints", &start.joints),
-        ("joint_rates", &start.joint_rates),
-    ] {
-        for (element, value, here) in per_element(resolver, system, entries.as_ref(), at.key(key)) {
-            let path = format!("{}/{}", system.name, system.elements[element].name);
-            let freedoms = system.elements[element].joint.freedoms_mut();
-            freedoms_at_start(
-                resolver,
-                (&path, freedoms),
-                value,
-                key == "joint_rates",
-                here,
-            );
-        }
+    begin_freedoms(
+        resolver,
+        system,
+        start.joints.as_ref(),
+        false,
+        at.key("joints"),
+    );
+    let rates = start.joint_rates.as_ref();
+    begin_freedoms(resolver, system, rates, true, at.key("joint_rates"));
+}
+
+/// Sets coordinates or rates of freedoms at the start.
+fn begin_freedoms<U>(
+    resolver: &Resolver<'_>,
+    system: &mut System,
+    entries: Option<&Named<OneOrThree<WrittenNumber<U>>>>,
+    rates: bool,
+    at: At<'_>,
+) {
+    for (element, value, here) in per_element(resolver, system, entries, at) {
+        let path = format!("{}/{}", system.name, system.elements[element].name);
+        let freedoms = system.elements[element].joint.freedoms_mut();
+        freedoms_at_start(resolver, (&path, freedoms), value, rates, here);
     }
 }
 
@@ -259,12 +266,12 @@ fn is_ball(
 }
 
 /// Entries whose keys are the names of elements; reports other keys.
-fn per_element<'w>(
+fn per_element<'w, T>(
     resolver: &Resolver<'_>,
     system: &System,
-    entries: Option<&'w Named<OneOrThree>>,
+    entries: Option<&'w Named<T>>,
     at: At<'w>,
-) -> Vec<(usize, &'w OneOrThree, At<'w>)> {
+) -> Vec<(usize, &'w T, At<'w>)> {
     let mut found = Vec::new();
     for (name, value) in entries.iter().flat_map(|n| &n.0) {
         let here = at.key(name);
@@ -295,22 +302,16 @@ fn prescribed(
     system: &mut System,
     start: Option<At<'_>>,
 ) -> Reference {
-    let mut ways = Ways {
-        displacement: written.displacement.as_deref(),
-        velocity: written.velocity.as_deref(),
-        acceleration: written.acceleration.as_deref(),
-        stops: written.stops,
-    };
-    if ways.count() == 0 {
-        ways.stops = None;
+    if written.count() == 0 {
         resolver.problems.add(at.problem(
             "this does not say how the reference joint moves",
             "give one of `displacement`, `velocity`, `acceleration`, or write `free` or `fixed`",
         ));
+        return Reference::Fixed;
     }
     let start = start.map(|at| at.key("velocity"));
     resolver.owner = format!("reference {}", system.name);
-    let translation = translation(resolver, &ways, at.base(), &mut system.velocity, start);
+    let translation = translation(resolver, written, at.base(), &mut system.velocity, start);
     let still = translation.curves.iter().all(Option::is_none)
         && system.velocity.iter().all(Number::is_zero);
     if still {
@@ -340,7 +341,7 @@ fn riding(
             ));
         }
     }
-    let point = resolver.vector(&written.at, at.key("at"), LENGTH);
+    let point = resolver.vector(&written.at, at.key("at"));
     let Some(vehicle) = vehicle_named(resolver, &written.on, at.key("on")) else {
         return Reference::Fixed;
     };

@@ -4,55 +4,19 @@
 //! start is the start velocity; a velocity curve begins with the start velocity.
 
 use super::Resolver;
-use super::quantity::{ACCELERATION, LENGTH, SPEED};
-use crate::description::curve::Function;
 use crate::description::place::At;
+use crate::description::system::Prescribed;
 use crate::diagnostic::quoted;
 use crate::model::{FieldComponent, Given, Interpolate, Number, ScaledCurve, Translation};
 
 /// Largest relative difference of two values of the same velocity: numbers are written with a few digits.
 const SAME: f64 = 1e-9;
 
-/// A translation as written: at most one of the three quantities.
-pub struct Ways<'w> {
-    /// Displacement from the start.
-    pub displacement: Option<&'w [Function]>,
-    /// Velocity.
-    pub velocity: Option<&'w [Function]>,
-    /// Acceleration.
-    pub acceleration: Option<&'w [Function]>,
-    /// True if the body stays where it is as soon as its velocity is 0.
-    pub stops: Option<bool>,
-}
-
-impl Ways<'_> {
-    /// The quantity that is written, with its key; `None` if there is none.
-    fn written(&self) -> Option<(&'static str, Given, &[Function])> {
-        let all = [
-            ("displacement", Given::Displacement, self.displacement),
-            ("velocity", Given::Velocity, self.velocity),
-            ("acceleration", Given::Acceleration, self.acceleration),
-        ];
-        let mut written = all
-            .into_iter()
-            .filter_map(|(key, given, list)| Some((key, given, list?)));
-        written.next()
-    }
-
-    /// Number of quantities that are written.
-    pub fn count(&self) -> usize {
-        [self.displacement, self.velocity, self.acceleration]
-            .iter()
-            .flatten()
-            .count()
-    }
-}
-
 /// The translation that is written at `at`. `velocity` is the start velocity, which is written at `start`, if at all;
 /// the part of it that curves determine is removed.
 pub(super) fn translation(
     resolver: &mut Resolver<'_>,
-    ways: &Ways<'_>,
+    written: &Prescribed,
     at: At<'_>,
     velocity: &mut [Number; 3],
     start: Option<At<'_>>,
@@ -62,10 +26,10 @@ pub(super) fn translation(
         curves: [None, None, None],
         stops: None,
     };
-    if ways.acceleration.is_none() && ways.stops.is_some() {
+    if written.acceleration.is_none() && written.stops.is_some() {
         resolver.problems.add(at.key("stops").key_problem(
             "`stops` is said of an acceleration, but none is given here",
-            match ways.count() {
+            match written.count() {
                 0 => "give the `acceleration` that brakes it, or remove `stops`",
                 _ => {
                     "remove `stops`; a curve that ends at rest stays there with `extrapolate: hold`"
@@ -73,25 +37,45 @@ pub(super) fn translation(
             },
         ));
     }
-    let Some((key, given, list)) = ways.written() else {
-        return still;
-    };
     let stops = at.key("stops");
+    let (key, given) = match written {
+        Prescribed {
+            displacement: Some(_),
+            ..
+        } => ("displacement", Given::Displacement),
+        Prescribed {
+            velocity: Some(_), ..
+        } => ("velocity", Given::Velocity),
+        Prescribed {
+            acceleration: Some(_),
+            ..
+        } => ("acceleration", Given::Acceleration),
+        _ => return still,
+    };
     let at = at.key(key);
-    if ways.count() > 1 {
+    if written.count() > 1 {
         resolver.problems.add(at.key_problem(
             "a motion is given once: by its displacement, its velocity or its acceleration",
             "keep one of the three keys; the other quantities follow from it",
         ));
         return still;
     }
-    let expected = match given {
-        Given::Displacement => LENGTH,
-        Given::Velocity => SPEED,
-        Given::Acceleration => ACCELERATION,
-    };
     let before = resolver.problems.count();
-    let components = resolver.components(list, at, expected);
+    let components = match written {
+        Prescribed {
+            displacement: Some(list),
+            ..
+        } => resolver.components(list, at),
+        Prescribed {
+            velocity: Some(list),
+            ..
+        } => resolver.components(list, at),
+        Prescribed {
+            acceleration: Some(list),
+            ..
+        } => resolver.components(list, at),
+        _ => return still,
+    };
     if resolver.problems.count() > before {
         return still;
     }
@@ -111,7 +95,7 @@ pub(super) fn translation(
     }
     let accelerated = given == Given::Acceleration && curves.iter().any(Option::is_some);
     let stops =
-        (ways.stops == Some(true) && accelerated).then(|| resolver.part_that_is_over(stops));
+        (written.stops == Some(true) && accelerated).then(|| resolver.part_that_is_over(stops));
     Translation {
         given,
         curves,

@@ -1,9 +1,9 @@
 //! Vehicles: bodies with prescribed motion, and the reference joints that ride on them.
 
 use super::name::Style;
-use super::quantity::{ANGLE, LENGTH, SPEED};
-use super::translation::{Ways, is_smooth, translation};
+use super::translation::{is_smooth, translation};
 use super::{NOWHERE, Resolver};
+use crate::description::measure::ANGLE;
 use crate::description::place::At;
 use crate::description::vehicle::Vehicle as Written;
 use crate::diagnostic::{quoted, suggestion};
@@ -30,27 +30,21 @@ pub(super) fn vehicle(
     if let Some(given) = &written.start {
         let here = at.key("start");
         if let Some(written) = &given.position {
-            position = resolver.vector(written, here.key("position"), LENGTH);
+            position = resolver.vector(written, here.key("position"));
         }
         if let Some(written) = &given.velocity {
-            velocity = resolver.vector(written, here.key("velocity"), SPEED);
+            velocity = resolver.vector(written, here.key("velocity"));
             start = Some(here.key("velocity"));
         }
     }
-    let ways = Ways {
-        displacement: written.displacement.as_deref(),
-        velocity: written.velocity.as_deref(),
-        acceleration: written.acceleration.as_deref(),
-        stops: written.stops,
-    };
     resolver.owner = format!("vehicle {}", written.name);
     let at = at.base();
-    let translation = translation(resolver, &ways, at, &mut velocity, start);
+    let translation = translation(resolver, &written.translation, at, &mut velocity, start);
     let mut angles = [0; 3].map(|_| FieldComponent::Constant(Number::ZERO));
     let mut angles_at_start = NOWHERE;
     if let Some(written) = &written.angles {
         for (axis, function, here) in resolver.about_axes(written, at.key("angles"), ANGLE) {
-            let angle = resolver.component(function, here, ANGLE);
+            let angle = resolver.component(function, here);
             angles_at_start[axis] = angle_at_start(resolver, &angle, here);
             angles[axis] = angle;
         }

@@ -360,9 +360,11 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
         .iter()
         .map(|Column { name, unit }| quote!(OutputInfo { name: #name, unit: #unit }));
     let parameters = facts.parameters.iter().map(|parameter| {
-        let Adjustable { name, unit, .. } = parameter;
+        let Adjustable {
+            name, unit, input, ..
+        } = parameter;
         let [default, min, max] = [parameter.default, parameter.min, parameter.max].map(number);
-        quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max })
+        quote!(ParameterInfo { name: #name, unit: #unit, default: #default, min: #min, max: #max, input: #input })
     });
     let ends = facts
         .curves
