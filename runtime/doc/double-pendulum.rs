@@ -61,7 +61,7 @@ use bryant_runtime::{
 
 bryant_runtime::use_nalgebra!(SMatrix, SVector);
 
-const _: () = bryant_runtime::check_generated_code_version(17);
+const _: () = bryant_runtime::check_generated_code_version(18);
 
 /// Length of q.
 pub const COORDINATES: usize = 2;

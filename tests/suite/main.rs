@@ -20,7 +20,6 @@ mod joints;
 mod kinks;
 mod lanes;
 mod laws;
-mod like;
 mod momentum;
 mod motion;
 mod operations;
