@@ -127,8 +127,7 @@ impl Config {
     }
 
     /// Sets the largest number of statements of a method that is compiled as one function; the default is 3000. A
-    /// longer method consists of calls: of subroutines that like elements share, if they cover half of the method and
-    /// not too much is left; otherwise of its pieces. Calls compile faster, but take some run time.
+    /// longer method calls its pieces. Calls compile faster, but take some run time.
     pub fn merged(&mut self, statements: usize) -> &mut Self {
         self.options.merged = statements;
         self

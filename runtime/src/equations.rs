@@ -20,7 +20,7 @@ pub use dynamics::{
 };
 pub use model::{
     OffsetView, TailView, Change, CurveInfo, CurveKind, Info, Model, OutputInfo, ParameterInfo, ParameterSet, OutputWriter,
-    StateKind, Vector, part,
+    StateKind, Vector,
 };
 pub use real::{DoubleDouble, Dual, Fast, Mask, Real, Several, Task, Width};
 pub use section::Section;

@@ -201,7 +201,7 @@ pub use integrate::Formula;
 pub use integrate::control::Tolerances;
 pub use model::{
     Change, CurveInfo, CurveKind, Info, Model, OffsetView, OutputInfo, OutputWriter, ParameterInfo,
-    ParameterSet, StateKind, TailView, Vector, part,
+    ParameterSet, StateKind, TailView, Vector,
 };
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub use real::Fast;

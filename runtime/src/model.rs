@@ -108,19 +108,6 @@ impl<T: Copy, const N: usize> Vector<T> for [T; N] {
     }
 }
 
-/// `COUNT` consecutive elements of an array, from `FROM` on. Both are known at compile time, so no bounds are checked
-/// at run time.
-#[inline(always)]
-pub fn part<const FROM: usize, const COUNT: usize, const ALL: usize, T>(
-    array: &[T; ALL],
-) -> &[T; COUNT] {
-    const { assert!(FROM + COUNT <= ALL, "the part ends behind the array") };
-    match array[FROM..].first_chunk() {
-        Some(part) => part,
-        None => unreachable!("as long as was just asserted"),
-    }
-}
-
 /// The methods of [`Model`] for its sections. A model that has no such results need not have the method. Where
 /// [`Info`] lists results by name, a model without the method does not compile.
 macro_rules! methods {

@@ -22,7 +22,6 @@ mod keys;
 mod kinks;
 mod lanes;
 mod laws;
-mod like;
 mod momentum;
 mod motion;
 mod operations;

@@ -377,12 +377,6 @@ impl Graph {
         Expr { graph: self, id }
     }
 
-    /// Another copy of a node, even if an equal one exists. [`Self::intern`] continues to find the old one.
-    pub fn again(&self, node: Node) -> Expr<'_> {
-        let id = self.inner.borrow_mut().push(node);
-        Expr { graph: self, id }
-    }
-
     #[inline]
     fn binary(&self, make: fn(NodeId, NodeId) -> Node, a: Expr<'_>, b: Expr<'_>) -> Expr<'_> {
         self.intern(make(a.id.min(b.id), a.id.max(b.id)))

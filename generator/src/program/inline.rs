@@ -18,8 +18,6 @@ const BEFORE_DERIVED: usize = 5;
 const BEFORE_PARAMETER: usize = 16;
 /// Assumed width of a name that is assigned later, after the order is fixed.
 const NAMELESS: usize = 4;
-/// Assumed width of every name and number if like elements must be recognised independently of their names.
-const ALIKE: usize = 10;
 /// Deepest nesting of an expression.
 const DEPTH: usize = 4;
 
@@ -31,22 +29,14 @@ struct Look {
     depth: usize,
 }
 
-/// By node: true if the value is written where it is used. `labels` are the names of results. With `alike`, the widths
-/// of names and numbers have no influence.
+/// By node: true if the value is written where it is used. `labels` are the names of results.
 pub(crate) fn inline(
     graph: &Graph,
     labels: &FxHashMap<NodeId, String>,
     uses: &[u32],
     inputs: &Inputs,
-    alike: bool,
 ) -> Vec<bool> {
-    let word = |id: NodeId| match alike {
-        true => Look {
-            width: ALIKE,
-            depth: 0,
-        },
-        false => word(graph, id, labels),
-    };
+    let word = |id: NodeId| word(graph, id, labels);
     let nodes = graph.nodes();
     let user_sections = user_sections(graph, uses);
     let mut inline = vec![false; nodes.len()];
@@ -59,7 +49,6 @@ pub(crate) fn inline(
     {
         let id = NodeId(position as u32);
         if let Some(width) = leaf(node, inputs) {
-            let width = if alike { ALIKE } else { width };
             looks[position] = Look { width, depth: 0 };
             continue;
         }

@@ -43,8 +43,7 @@ impl From<&model::Curve> for Curve {
 /// A model as lists: everything needed to evaluate it.
 ///
 /// The lists have exactly the operations of the Rust text that [`Config::source`](crate::Config::source) gives with the
-/// same options, in the same order, so their results have the same bits, including the signs of zeros. The only
-/// exception are methods longer than `Options::merged`: there the sign of a zero may differ.
+/// same options, in the same order, so their results have the same bits, including the signs of zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lists {
     /// Names, units, sizes.

@@ -7,7 +7,6 @@
 //! | `plan` | a graph for each method of the table in `method`; values that depend on parameters alone (`hoist`) |
 //! | `prepare` | the passes over each graph: known values become inputs, common factors are taken out, operations are fused |
 //! | `order`, `inline`, `schedule` | the operations of a graph as statements, in order |
-//! | `share` | equal computations of like elements, as subroutines |
 //! | `split` | cuts of long methods |
 //! | `formula` | the operations of a statement, independent of the written form |
 //! | `lower`, `assemble` | statements as a [`List`], methods as [`Lists`] |
@@ -33,7 +32,6 @@ pub(crate) mod order;
 pub(crate) mod plan;
 mod prepare;
 pub(crate) mod schedule;
-pub(crate) mod share;
 pub(crate) mod split;
 
 use crate::equations::Equations;
@@ -57,13 +55,11 @@ pub struct Options {
     /// feature `nalgebra`.
     pub matrices: bool,
     /// Largest number of statements of one function, not counting those that read inputs. Longer functions are cut into
-    /// pieces, which release builds merge again unless there are too many. Subroutines shared by like elements, and the
-    /// function that calls them, are not cut.
+    /// pieces, which release builds merge again unless there are too many.
     pub statements: usize,
     /// Largest number of statements of a method that is compiled as one function. That makes the code faster, by 3 %
     /// with `f64` and by 5 to 15 % with eight lanes, but compile time grows more than proportionally, and the code may
-    /// exceed the processor's caches. In longer methods, like elements share functions; if few elements are alike, each
-    /// piece becomes a function.
+    /// exceed the processor's caches. In longer methods, each piece becomes a function.
     pub merged: usize,
 }
 

@@ -4,7 +4,7 @@
 //! their creation. In methods that integrators evaluate, a section comes right before the first section that needs it:
 //! there are more values than registers, and values that wait long for their use are written to memory and read again.
 
-use super::schedule::{index, uses};
+use super::schedule::index;
 use crate::expression::{Graph, NodeId};
 use crate::method::results::Results;
 use rustc_hash::FxHashMap;
@@ -18,8 +18,6 @@ pub(crate) enum Order {
     Section,
     /// The same, but each section comes right before the first section that needs it.
     Need,
-    /// As many values as possible of an element follow one another, as late as their users allow.
-    Owner,
 }
 
 impl Order {
@@ -32,63 +30,13 @@ impl Order {
         }
     }
 
-    /// All operations in use, operands first, divided into blocks.
-    pub(crate) fn blocks(self, graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
+    /// All operations in use, operands first.
+    pub(crate) fn operations(self, graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
         match self {
-            Order::Section => vec![by_section(graph, uses)],
-            Order::Need => vec![by_need(graph, uses)],
-            Order::Owner => by_owner(graph, uses),
+            Order::Section => by_section(graph, uses),
+            Order::Need => by_need(graph, uses),
         }
     }
-}
-
-/// The operations that the roots need, in the order of [`Order::Owner`], divided into blocks.
-pub(crate) fn blocks_by_owner(graph: &Graph, roots: &[NodeId]) -> Vec<Vec<NodeId>> {
-    by_owner(graph, &uses(graph, roots))
-}
-
-/// All operations in use, operands first, one block per owner and run. Goes backwards from the results: a value is
-/// ready if all its users are placed, and as many ready values of one owner as possible form a block.
-fn by_owner(graph: &Graph, uses: &[u32]) -> Vec<Vec<NodeId>> {
-    let nodes = graph.nodes();
-    let operation = |id: NodeId| uses[index(id)] > 0 && !nodes[index(id)].is_leaf();
-    let operations = || {
-        (0..nodes.len() as u32)
-            .map(NodeId)
-            .filter(|&id| operation(id))
-    };
-    let owner_of = graph.owners();
-    let mut users = vec![0_u32; nodes.len()];
-    for id in operations() {
-        for operand in nodes[index(id)].operands() {
-            users[index(operand)] += 1;
-        }
-    }
-    let mut ready: Vec<BTreeSet<NodeId>> = vec![BTreeSet::new(); owner_of.len()];
-    for id in operations().filter(|&id| users[index(id)] == 0) {
-        ready[owner_of[graph.section_of(id)]].insert(id);
-    }
-    let mut blocks = Vec::new();
-    // takes the owner of the youngest ready value, until none of its values is ready any more
-    while let Some(current) = (0..ready.len())
-        .filter(|&owner| !ready[owner].is_empty())
-        .max_by_key(|&owner| ready[owner].last().copied())
-    {
-        let mut block = Vec::new();
-        while let Some(id) = ready[current].pop_last() {
-            block.push(id);
-            for operand in nodes[index(id)].operands() {
-                users[index(operand)] -= 1;
-                if users[index(operand)] == 0 && operation(operand) {
-                    ready[owner_of[graph.section_of(operand)]].insert(operand);
-                }
-            }
-        }
-        block.reverse();
-        blocks.push(block);
-    }
-    blocks.reverse();
-    blocks
 }
 
 /// All operations in use, operands first, section by section.
@@ -216,6 +164,7 @@ fn by_need(graph: &Graph, uses: &[u32]) -> Vec<NodeId> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::schedule::uses;
     use super::*;
     use crate::expression::Symbol;
 

@@ -6,7 +6,6 @@ use crate::expression::{Graph, Node, NodeId};
 use crate::method::inputs::Inputs;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 /// The values of a method in the order in which they are computed.
 pub(crate) struct Schedule {
@@ -24,11 +23,9 @@ pub(crate) struct Schedule {
     calls: Vec<Vec<Option<NodeId>>>,
 }
 
-/// A statement, with its section and its block.
+/// A statement, with its section.
 pub(crate) struct Line {
     pub section: usize,
-    /// Number of the block; 0 unless the order is [`Order::Owner`].
-    pub block: usize,
     pub statement: Statement,
 }
 
@@ -72,8 +69,8 @@ impl Schedule {
     ) -> Self {
         let labels = labels_of(&graph, &roots, labels);
         let uses = uses(&graph, &roots);
-        let inline = inline(&graph, &labels, &uses, inputs, order == Order::Owner);
-        let blocks = order.blocks(&graph, &uses);
+        let inline = inline(&graph, &labels, &uses, inputs);
+        let ordered = order.operations(&graph, &uses);
         let partners = partners(&graph, &uses);
         let calls = calls(&graph, &uses);
         let mut call_of = FxHashMap::default();
@@ -88,9 +85,7 @@ impl Schedule {
             lines: Vec::new(),
             calls,
         };
-        let ordered = (blocks.iter().enumerate())
-            .flat_map(|(block, ids)| ids.iter().map(move |&id| (block, id)));
-        for (block, id) in ordered {
+        for id in ordered {
             if inline[index(id)] || schedule.binds[index(id)] {
                 continue;
             }
@@ -110,20 +105,18 @@ impl Schedule {
             }
             schedule.lines.push(Line {
                 section: schedule.graph.section_of(id),
-                block,
                 statement,
             });
         }
         if puts {
-            schedule.put_results(order);
+            schedule.put_results();
         }
         schedule
     }
 
     /// Adds lines that write each root to the output writer as soon as it is known, so that it need not be stored:
-    /// after the line that binds it or, if blocks may become calls, at the end of the block. Roots that no line binds
-    /// come last.
-    fn put_results(&mut self, order: Order) {
+    /// after the line that binds it. Roots that no line binds come last.
+    fn put_results(&mut self) {
         let mut line_of = vec![None; self.graph.len()];
         for (number, line) in self.lines.iter().enumerate() {
             for id in self.bound(line.statement) {
@@ -139,30 +132,19 @@ impl Schedule {
             known_at[line.unwrap_or(end)].push(place);
         }
         let unbound = known_at.pop().unwrap_or_default();
-        let mut lines = std::mem::take(&mut self.lines).into_iter().peekable();
-        let mut known = Vec::new();
-        let (mut section, mut block) = (0, 0);
-        for places in known_at {
-            known.extend(places);
-            if let Some(line) = lines.next() {
-                (section, block) = (line.section, line.block);
-                self.lines.push(line);
+        let mut section = 0;
+        let put = |section: usize| {
+            move |place| Line {
+                section,
+                statement: Statement::Put(place),
             }
-            let ends = lines.peek().is_none_or(|next| next.block != block);
-            if order != Order::Owner || ends {
-                self.put(known.drain(..), section, block);
-            }
+        };
+        for (line, places) in std::mem::take(&mut self.lines).into_iter().zip(known_at) {
+            section = line.section;
+            self.lines.push(line);
+            self.lines.extend(places.into_iter().map(put(section)));
         }
-        self.put(unbound.into_iter(), section, block + 1);
-    }
-
-    /// Adds lines that write these roots to the output writer.
-    fn put(&mut self, places: impl Iterator<Item = usize>, section: usize, block: usize) {
-        self.lines.extend(places.map(|place| Line {
-            section,
-            block,
-            statement: Statement::Put(place),
-        }));
+        self.lines.extend(unbound.into_iter().map(put(section)));
     }
 
     /// The roots that are returned.
@@ -171,12 +153,6 @@ impl Schedule {
             true => &[],
             false => &self.roots,
         }
-    }
-
-    /// Number of these lines that bind values.
-    pub(crate) fn binding(&self, lines: Range<usize>) -> usize {
-        let binds = |line: &&Line| !matches!(line.statement, Statement::Put(_));
-        self.lines[lines].iter().filter(binds).count()
     }
 
     /// The values that a statement binds.

@@ -3,8 +3,7 @@
 //!
 //! [`rebuild()`] drops nodes that are not needed. [`join()`] merges several graphs. [`replace()`] replaces values that are already known,
 //! and [`restore()`] puts values back.
-//! [`factor()`] reduces the number of operations. [`fuse()`] selects fused multiply-adds and comes last. [`repeat()`] then undoes some sharing
-//! between nodes that are evaluated far apart. [`Recall`] works on expressions of a graph that continues to grow. The roots should be those of
+//! [`factor()`] reduces the number of operations. [`fuse()`] selects fused multiply-adds and comes last. [`Recall`] works on expressions of a graph that continues to grow. The roots should be those of
 //! one evaluation: a value that two functions use once each is not shared between them.
 
 pub mod factor;
@@ -13,12 +12,10 @@ pub mod fuse;
 mod pairs;
 pub mod rebuild;
 pub mod recall;
-pub mod repeat;
 pub mod replace;
 
 pub use factor::factor;
 pub use fuse::fuse;
 pub use rebuild::{Rewritten, join, rebuild};
 pub use recall::Recall;
-pub use repeat::repeat;
 pub use replace::{needed, replace, restore};

@@ -135,14 +135,6 @@ impl<'a> Copier<'a> {
         self.set(id, new);
     }
 
-    /// Makes another copy of a node as it is, even if an equal one exists. From here on, users get the new copy.
-    pub fn repeat(&mut self, id: NodeId) {
-        self.enter_section_of(id);
-        let node = self.old.node(id).map_operands(|id| self.target(id));
-        let new = self.new.again(node).id();
-        self.set(id, new);
-    }
-
     /// The new graph, with the roots in it.
     pub fn finish(self, roots: &[NodeId]) -> Rewritten {
         let roots = roots.iter().map(|&id| self.target(id)).collect();

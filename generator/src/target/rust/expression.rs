@@ -12,16 +12,7 @@ use quote::quote;
 use std::cell::Cell;
 use syn::{BinOp, Expr};
 
-/// Words to print in place of the usual names of values, numbers and places of results.
-pub(crate) trait Words {
-    fn value(&self, id: NodeId) -> Expr;
-    fn number(&self, value: f64) -> Expr;
-    /// The index at which a result is put into the writer.
-    fn place(&self, place: usize) -> Expr;
-}
-
 /// Prints the expressions of one schedule.
-#[derive(Clone)]
 pub(crate) struct Printer<'a> {
     schedule: &'a Schedule,
     names: &'a Naming,
@@ -30,7 +21,6 @@ pub(crate) struct Printer<'a> {
     /// True if parameters are an argument; false if they are a field of the mechanism.
     parameters_are_argument: bool,
     numbers: Cell<bool>,
-    words: Option<&'a dyn Words>,
 }
 
 impl<'a> Printer<'a> {
@@ -49,16 +39,6 @@ impl<'a> Printer<'a> {
             library,
             parameters_are_argument,
             numbers,
-            words: None,
-        }
-    }
-
-    /// A printer of the same schedule that uses these words.
-    pub(crate) fn in_words(&self, words: &'a dyn Words) -> Self {
-        Self {
-            words: Some(words),
-            numbers: Cell::new(false),
-            ..self.clone()
         }
     }
 
@@ -70,10 +50,7 @@ impl<'a> Printer<'a> {
     /// A number as a scalar.
     pub(crate) fn number(&self, value: f64) -> Expr {
         self.numbers.set(true);
-        match self.words {
-            Some(words) => words.number(value),
-            None => scalar(value),
-        }
+        scalar(value)
     }
 
     fn formulas(&self) -> Formulas<'_, Self> {
@@ -103,10 +80,7 @@ impl<'a> Printer<'a> {
                 )
             }
             Statement::Put(place) => {
-                let index = match self.words {
-                    Some(words) => words.place(place),
-                    None => syntax::literal(Literal::usize_unsuffixed(place)),
-                };
+                let index = syntax::literal(Literal::usize_unsuffixed(place));
                 let value = self.value(self.schedule.roots[place]);
                 syntax::method(syntax::word("writer"), "put", [index, value])
             }
@@ -144,17 +118,13 @@ impl Form for Printer<'_> {
     }
 
     fn bound(&self, id: NodeId) -> Expr {
-        match self.words {
-            Some(words) => words.value(id),
-            None => syntax::place(self.names.of(id).unwrap_or("unnamed")),
-        }
+        syntax::place(self.names.of(id).unwrap_or("unnamed"))
     }
 
     fn input(&self, id: NodeId, symbol: Symbol) -> Expr {
-        match (self.words, self.names.of(id)) {
-            (Some(words), _) => words.value(id),
-            (None, Some(name)) => syntax::place(name),
-            (None, None) => self.symbol(self.inputs.input(symbol)),
+        match self.names.of(id) {
+            Some(name) => syntax::place(name),
+            None => self.symbol(self.inputs.input(symbol)),
         }
     }
 

@@ -23,7 +23,7 @@ pub(crate) struct Writer<'a> {
     pub method: Specification,
     pub schedule: Schedule,
     pub names: Naming,
-    /// The pieces of the method; empty if the method is written as calls of subroutines.
+    /// The pieces of the method; a single one if it is short.
     pub pieces: Vec<Piece>,
     /// True if the pieces remain functions of their own, false if the compiler merges them into one.
     pub apart: bool,
@@ -59,7 +59,7 @@ impl Writer<'_> {
         (structs, methods)
     }
 
-    pub(crate) fn printer(&self) -> Printer<'_> {
+    fn printer(&self) -> Printer<'_> {
         let of_parameters = constructs(&self.method);
         Printer::new(
             &self.schedule,
@@ -71,7 +71,7 @@ impl Writer<'_> {
     }
 
     /// The public method with this body. `reads` are the arguments that the body reads.
-    pub(crate) fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
+    fn method(&self, reads: &BTreeSet<Argument>, body: Block) -> Vec<ImplItemFn> {
         let puts_any = !self.schedule.roots.is_empty();
         public_method(&self.method, reads, puts_any, body)
     }
@@ -218,12 +218,8 @@ impl Writer<'_> {
 
     /// The arguments that a piece reads.
     fn arguments(&self, piece: &Piece) -> BTreeSet<Argument> {
-        self.arguments_of(&piece.reads)
-    }
-
-    /// The arguments to which these values belong.
-    pub(crate) fn arguments_of(&self, reads: &BTreeSet<NodeId>) -> BTreeSet<Argument> {
-        let symbols = reads
+        let symbols = piece
+            .reads
             .iter()
             .filter_map(|&id| match self.schedule.graph.node(id) {
                 Node::Symbol(symbol) => Some(self.inputs.input(symbol)),
@@ -282,11 +278,7 @@ impl Writer<'_> {
     }
 
     /// `let &[_, z, ..] = q;`: names the elements of an argument that a piece reads.
-    pub(crate) fn destructure(
-        &self,
-        reads: &BTreeSet<NodeId>,
-        argument: Argument,
-    ) -> Option<TokenStream> {
+    fn destructure(&self, reads: &BTreeSet<NodeId>, argument: Argument) -> Option<TokenStream> {
         let mut names: Vec<Option<&str>> = vec![None; self.inputs.length(argument)];
         for &id in reads {
             if let Node::Symbol(symbol) = self.schedule.graph.node(id)
@@ -369,8 +361,7 @@ impl Writer<'_> {
                     written.push(self.reading(&elements, comment));
                 }
             }
-            let name = |id| self.names.of(id).map(str::to_owned);
-            written.push(self.line(line.statement, comment, printer, name));
+            written.push(self.line(line.statement, comment, printer));
         }
         written
     }
@@ -411,13 +402,7 @@ impl Writer<'_> {
     }
 
     /// `let name = formula;` or `writer.put(place, formula);`, with a comment above it.
-    pub(crate) fn line(
-        &self,
-        statement: Statement,
-        comment: Option<&str>,
-        printer: &Printer<'_>,
-        name: impl Fn(NodeId) -> Option<String>,
-    ) -> Stmt {
+    fn line(&self, statement: Statement, comment: Option<&str>, printer: &Printer<'_>) -> Stmt {
         if let Statement::Put(_) = statement {
             return syntax::does(printer.statement(statement));
         }
@@ -425,7 +410,7 @@ impl Writer<'_> {
         let bindings = self.schedule.bindings(statement);
         let mut patterns = bindings
             .iter()
-            .map(|id| syntax::binding(id.and_then(&name).as_deref()));
+            .map(|id| syntax::binding(id.and_then(|id| self.names.of(id))));
         let pattern = match statement {
             Statement::Value(_) => patterns.next(),
             Statement::SinCos { .. } => patterns
@@ -454,16 +439,16 @@ type Element = (Argument, usize, NodeId);
 
 /// The parts of the declaration of a task that concern the writer.
 #[derive(Default)]
-pub(crate) struct WriterOfTask {
-    pub generic: TokenStream,
-    pub bound: TokenStream,
-    pub field: TokenStream,
-    pub value: TokenStream,
+struct WriterOfTask {
+    generic: TokenStream,
+    bound: TokenStream,
+    field: TokenStream,
+    value: TokenStream,
 }
 
 impl WriterOfTask {
     /// The parts for a task with a writer; all are empty if the task puts no results.
-    pub(crate) fn of(puts: bool) -> Self {
+    fn of(puts: bool) -> Self {
         match puts {
             true => WriterOfTask {
                 generic: quote!(, S),
@@ -477,7 +462,7 @@ impl WriterOfTask {
 }
 
 /// `-> Type`; nothing for `()`.
-pub(crate) fn arrow(returned: &TokenStream) -> TokenStream {
+fn arrow(returned: &TokenStream) -> TokenStream {
     match returned.to_string().as_str() {
         "()" => TokenStream::new(),
         _ => quote!(-> #returned),

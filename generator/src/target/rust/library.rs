@@ -2,7 +2,7 @@
 
 use super::expression::{Callee, ident, number};
 use super::user::Users;
-use crate::expression::{Function, Graph, Node, NodeId, UserCall, live::Live};
+use crate::expression::{Function, Graph, Node, NodeId, live::Live};
 use crate::law::ForceKind;
 use crate::model::{Extrapolate, Interpolate, Model};
 use crate::names::{Names, screaming};
@@ -44,18 +44,6 @@ impl Library {
     /// The text of the modules of the user's functions.
     pub(crate) fn users(&self, model: &Model) -> String {
         self.users.text(model, &self.names)
-    }
-
-    /// The function that represents all equal ones: if several forces call the same function of the user, that of the
-    /// first of them.
-    pub(crate) fn first_alike(&self, function: Function) -> Function {
-        match function {
-            Function::User(call) => Function::User(UserCall {
-                force: self.users.first_alike(call.force),
-                ..call
-            }),
-            other => other,
-        }
     }
 
     /// The modules of the user's functions.

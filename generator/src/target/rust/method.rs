@@ -1,4 +1,4 @@
-//! Writes a method as Rust: as a whole, as calls of the subroutines that similar elements share, or in pieces.
+//! Writes a method as Rust: as a whole or in pieces.
 
 use super::expression::ident;
 use super::function::{Writer, with_body};
@@ -14,7 +14,6 @@ use crate::program::Options;
 use crate::program::order::Order;
 use crate::program::plan::Procedure;
 use crate::program::schedule::Schedule;
-use crate::program::share::Sharing;
 use crate::program::split::pieces;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -47,7 +46,7 @@ pub(crate) struct Function {
     pub operations: Table,
 }
 
-/// Writes a method; a long method as calls of subroutines or in pieces.
+/// Writes a method; a long method in pieces.
 pub(crate) fn write(
     procedure: Procedure,
     inputs: &Inputs,
@@ -61,34 +60,20 @@ pub(crate) fn write(
     } = procedure;
     let (labels, results) = (&method.labels, method.results);
     let puts = results.one_by_one();
-    let mut schedule = Schedule::new(graph, roots, labels, inputs, Order::of(results), puts);
+    let schedule = Schedule::new(graph, roots, labels, inputs, Order::of(results), puts);
     let long = schedule.lines.len() > options.merged && !constructs(&method);
-    let same = |function| library.first_alike(function);
-    let shared = long
-        .then(|| Sharing::in_order_of_owners(&schedule, labels, inputs, puts, &same))
-        .flatten();
-    let sharing = shared.map(|(shared, sharing)| {
-        schedule = shared;
-        sharing
-    });
-    let pieces = match &sharing {
-        Some(_) => Vec::new(),
-        None => pieces(&schedule, options.statements),
-    };
+    let pieces = pieces(&schedule, options.statements);
     let (name, operations) = (method.name, Table::of(&schedule.graph, &schedule.roots));
-    let mut writer = Writer {
+    let writer = Writer {
         names: Naming::new(&schedule, labels, inputs, &method.arguments),
-        apart: sharing.is_some() || long && pieces.len() > 1,
+        apart: long && pieces.len() > 1,
         method,
         schedule,
         pieces,
         inputs,
         library,
     };
-    let (structs, methods) = match sharing {
-        Some(sharing) => writer.in_calls(&sharing),
-        None => writer.in_pieces(),
-    };
+    let (structs, methods) = writer.in_pieces();
     Function {
         name,
         methods,

@@ -6,7 +6,6 @@
 //! |---|---|
 //! | `method`, `argument`, `results` | a method: its signature, arguments and results |
 //! | `function` | its body, or the bodies of its pieces |
-//! | `subroutines`, `subroutine_names` | its body as calls of subroutines that similar elements share |
 //! | `expression`, `syntax`, `naming` | statements and formulas as syntax trees, with names |
 //! | `implementation` | the trait `Model`, by the methods |
 //! | `items`, `library`, `user` | sizes, parameters, constants; curves and laws; functions of the user's |
@@ -28,8 +27,6 @@ mod method;
 mod naming;
 mod operations;
 mod results;
-mod subroutine_names;
-mod subroutines;
 mod syntax;
 mod user;
 

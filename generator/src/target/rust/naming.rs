@@ -49,18 +49,6 @@ impl Naming {
         self.0[index(id)].as_deref()
     }
 
-    /// Gives values other names.
-    pub(crate) fn rename(&mut self, names: impl IntoIterator<Item = (NodeId, String)>) {
-        for (id, name) in names {
-            self.0[index(id)] = Some(name);
-        }
-    }
-
-    /// All names in use.
-    pub(crate) fn all(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().flatten().map(String::as_str)
-    }
-
     /// Names the inputs. All elements of all arguments take their names, in use or not, so that an element has the same
     /// name in every function.
     fn name_inputs(

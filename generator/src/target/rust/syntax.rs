@@ -122,18 +122,6 @@ pub(crate) fn binary(left: Expr, op: BinOp, right: Expr) -> Expr {
     })
 }
 
-/// `name + distance`; `name` if the distance is 0.
-pub(crate) fn offset(name: &str, distance: usize) -> Expr {
-    match distance {
-        0 => word(name),
-        _ => binary(
-            word(name),
-            BinOp::Add(Default::default()),
-            literal(Literal::usize_unsuffixed(distance)),
-        ),
-    }
-}
-
 /// `-a`
 pub(crate) fn negative(a: Expr) -> Expr {
     Expr::Unary(syn::ExprUnary {

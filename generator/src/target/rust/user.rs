@@ -75,13 +75,6 @@ impl Users {
             .map_or(ADAPTER, String::as_str)
     }
 
-    /// The first force that calls the same adapter as this force.
-    pub(crate) fn first_alike(&self, force: u16) -> u16 {
-        let path = self.path(force);
-        let first = self.paths.iter().position(|other| other == path);
-        first.map_or(force, |first| first as u16)
-    }
-
     /// The text of the modules. `curves` are the names of the constants of the model's curves.
     pub(crate) fn text(&self, model: &Model, curves: &[String]) -> String {
         let mut text = String::new();
