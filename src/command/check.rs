@@ -247,7 +247,12 @@ fn as_text(model: &Model, costs: &Costs) -> String {
     for parameter in &model.parameters {
         let _ = writeln!(
             text,
-            "  parameter   {}",
+            "  {:<11} {}",
+            if parameter.input {
+                "input"
+            } else {
+                "parameter"
+            },
             describe(parameter, model.units.system)
         );
     }

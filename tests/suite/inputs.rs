@@ -3,7 +3,7 @@
 use bryant_engine::Engine;
 use bryant_generator::Config;
 use bryant_runtime::failure::{Reason, Refusal};
-use bryant_runtime::simulate::{Driven, Run, workspace_length};
+use bryant_runtime::simulate::{Driven, Run, Watch, workspace_length};
 use bryant_runtime::{Adaptive, Failure, Pace, Settings, Tolerances};
 use std::io;
 
@@ -57,7 +57,9 @@ fn driven(
     let mut memory = vec![0.0; workspace_length(info, &settings)];
     let mut parameters = vec![0.0; info.parameters.len()];
     let model = Driven::new(&mut *model, &mut parameters);
-    let mut run = Run::driven(&mut memory, &model, &start, &settings, None)?;
+    let mut watch = Watch::new(info, 0.02);
+    let watched = Some(&mut watch);
+    let mut run = Run::driven(&mut memory, &model, &start, &settings, watched)?;
     let mut outputs = run.advance_to(0.0)?.outputs.to_vec();
     for (k, &t) in times.iter().enumerate() {
         let inputs = control(k, &outputs);
@@ -68,6 +70,9 @@ fn driven(
         })?;
         outputs = run.advance_to(t)?.outputs.to_vec();
     }
+    drop(run);
+    let doubts: Vec<String> = watch.diagnostics().map(|d| format!("{d:?}")).collect();
+    assert!(doubts.is_empty(), "{doubts:?}");
     Ok(outputs)
 }
 

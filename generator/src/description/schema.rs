@@ -129,9 +129,29 @@ impl Schema {
     }
 }
 
+/// A text without the addresses of its links, which lead from the reference page.
+fn without_links(text: &str) -> String {
+    let mut plain = String::new();
+    let mut rest = text;
+    while let Some((before, link)) = rest.split_once('[') {
+        plain += before;
+        match link.split_once("](") {
+            Some((shown, behind)) if !shown.contains(['[', ']']) => {
+                plain += shown;
+                rest = behind.split_once(')').map_or("", |(_, behind)| behind);
+            }
+            _ => {
+                plain.push('[');
+                rest = link;
+            }
+        }
+    }
+    plain + rest
+}
+
 impl Key {
     /// Meaning, unit and default in one line.
-    fn sentence(&self) -> String {
+    pub fn sentence(&self) -> String {
         let unit = match (self.unit)() {
             unit if unit.is_empty() => String::new(),
             unit => format!(" [{unit}]"),
@@ -140,7 +160,7 @@ impl Key {
             "none" | "required" => String::new(),
             default => format!("; default: {default}"),
         };
-        format!("{}{unit}{default}", self.meaning.trim())
+        without_links(&format!("{}{unit}{default}", self.meaning.trim()))
     }
 
     /// A number with the unit of the key, as texts spell it.
