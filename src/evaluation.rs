@@ -1,20 +1,14 @@
-//! S, r_s, r_k and v̇ at one state, by evaluating the graph of the equations. Only functions of user forces are
-//! compiled.
+//! S, r_s, r_k and v̇ at one state, as a run computes them.
 
-use bryant_engine::UserFunctions;
-use bryant_generator::equations::{Equations, LawState, Variable};
-use bryant_generator::expression::NodeId;
-use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::law::ForceKind;
+use bryant_engine::{Engine, Interpreted};
+use bryant_generator::expression::Function;
 use bryant_generator::model::Model;
+use bryant_generator::program::{Curve, Method};
+use bryant_runtime::{Adjustable as _, Dynamics as _};
 use serde::{Deserialize, Serialize};
 
-mod functions;
-
-pub(crate) use functions::stop;
-pub use functions::{functions, functions_with};
-
-/// A state. Coordinates and velocities are in the order of [`Equations::coordinates`] and [`Equations::velocities`].
+/// A state. Coordinates and velocities are in the order of [`Info::coordinates`](bryant_runtime::Info::coordinates)
+/// and [`Info::velocities`](bryant_runtime::Info::velocities).
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
@@ -78,16 +72,6 @@ pub enum StateError {
         /// √(w² + x² + y² + z²).
         length: f64,
     },
-    /// A function of a user force is not available; it is written in Rust, and not part of the graph.
-    #[error(
-        "the user force \"{force}\" is computed by the Rust function {function}, which is not available\n  help: compile it by `UserForces::of`, and hand it over; `enabled: false` leaves it out"
-    )]
-    User {
-        /// The force.
-        force: String,
-        /// The function.
-        function: String,
-    },
     /// The parameters violate a condition of the model.
     #[error("{condition}, which is not so with these parameters")]
     Refused {
@@ -111,88 +95,65 @@ pub enum StateError {
 /// Allowed deviation of the length of a quaternion from 1: a state that was written by hand may lack a few digits.
 const QUATERNION_TOLERANCE: f64 = 1e-4;
 
-/// Evaluates the equations, which must have been derived with S, r_s and r_k. Parameters are in the model's order (SI).
-/// `users` are the functions of user forces, if the model has any.
-pub fn at(
-    model: &Model,
-    equations: &Equations,
-    parameters: &[f64],
-    state: &State,
-    users: Option<&dyn UserFunctions>,
-) -> Result<Evaluation, StateError> {
-    knows_user_forces(model, users)?;
-    if let Some(condition) = refused(model, equations, parameters) {
+/// Evaluates the equations of an engine whose lists have S, r_s and r_k. Parameters are in the model's order (SI).
+pub fn at(engine: &Engine, parameters: &[f64], state: &State) -> Result<Evaluation, StateError> {
+    let info = engine.info();
+    let model = model(engine, parameters);
+    if let Some(condition) = model.violated() {
+        let condition = info.conditions[condition].to_owned();
         return Err(StateError::Refused { condition });
     }
-    let names = |variables: &[Variable]| -> Vec<String> {
-        variables.iter().map(|v| v.name.clone()).collect()
-    };
-    let coordinates = names(&equations.coordinates);
-    let velocities = names(&equations.velocities);
-    check_length("q", "coordinates", state.q.len(), &coordinates)?;
-    check_length("v", "velocities", state.v.len(), &velocities)?;
-    check_quaternions(&coordinates, &state.q)?;
-    let laws = |key, what, states: &[LawState], given: &[f64]| {
-        let values = match given.is_empty() {
-            true => initial(model, equations, states, parameters),
-            false => given.to_vec(),
-        };
-        let names: Vec<String> = states.iter().map(|s| s.name.clone()).collect();
-        check_length(key, what, values.len(), &names).map(|()| values)
-    };
-    let z = laws(
-        "z",
-        "states of force laws",
-        &equations.auxiliaries,
-        &state.z,
-    )?;
-    let m = laws("m", "memories of force laws", &equations.memory, &state.m)?;
-    let inputs = Inputs {
-        time: state.t,
-        coordinates: &state.q,
-        velocities: &state.v,
-        parameters,
-        auxiliaries: &z,
-        memory: &m,
-    };
-    let mut roots: Vec<NodeId> = equations.mass_matrix.iter().flatten().copied().collect();
-    roots.extend(&equations.velocity_forces);
-    roots.extend(&equations.applied_forces);
-    roots.extend(&equations.accelerations);
-    let functions = functions_with(model, users);
-    let mut values = evaluate(&equations.graph, &roots, &inputs, &functions);
+    let mut y = initial(&model);
+    let mut rest = &mut y[..];
+    for (key, what, given, names) in [
+        ("q", "coordinates", &state.q, info.coordinates),
+        ("v", "velocities", &state.v, info.velocities),
+        ("z", "states of force laws", &state.z, info.auxiliaries),
+        ("m", "memories of force laws", &state.m, info.memory),
+    ] {
+        let (own, behind) = rest.split_at_mut(names.len());
+        // laws begin as in a run, if nothing is given
+        if !given.is_empty() || matches!(key, "q" | "v") {
+            check_length(key, what, given.len(), names)?;
+            own.copy_from_slice(given);
+        }
+        rest = behind;
+    }
+    let ranges = engine.lists().quaternions.iter();
+    for first in ranges.flat_map(|range| range.clone().step_by(4)) {
+        check_quaternion(info.coordinates[first], &state.q[first..first + 4])?;
+    }
     // zero has no sign
-    values.iter_mut().for_each(|value| *value += 0.0);
-    let size = velocities.len();
-    let (matrix, vectors) = values.split_at(size * size);
-    check_finite(matrix, vectors, &velocities)?;
-    let mut vectors = vectors.chunks(size.max(1)).map(<[f64]>::to_vec);
-    let mut vector = || vectors.next().unwrap_or_default();
+    let results = |method| -> Vec<f64> {
+        let results = model.results(method, state.t, &y).into_iter();
+        results.map(|value| value + 0.0).collect()
+    };
+    let size = info.velocities.len();
+    let triangle = results(Method::MassMatrix);
+    let mut matrix = vec![vec![0.0; size]; size];
+    let entries = (0..size).flat_map(|row| (row..size).map(move |column| [row, column]));
+    for ([row, column], entry) in entries.zip(triangle) {
+        matrix[row][column] = entry;
+        matrix[column][row] = entry;
+    }
+    let rates = results(Method::Derivative);
+    let [r_s, r_k] = [Method::VelocityForces, Method::AppliedForces].map(results);
+    let acceleration = rates[info.coordinates.len()..][..size].to_vec();
+    let vectors = [&r_s[..], &r_k, &acceleration].concat();
+    check_finite(&matrix.concat(), &vectors, info.velocities)?;
     Ok(Evaluation {
         state: state.clone(),
-        coordinates,
-        velocities,
-        mass_matrix: matrix.chunks(size.max(1)).map(<[f64]>::to_vec).collect(),
-        r_s: vector(),
-        r_k: vector(),
-        acceleration: vector(),
+        coordinates: owned(info.coordinates),
+        velocities: owned(info.velocities),
+        mass_matrix: matrix,
+        r_s,
+        r_k,
+        acceleration,
     })
 }
 
-/// Refuses a model with a user force whose function is not in `users`.
-fn knows_user_forces(model: &Model, users: Option<&dyn UserFunctions>) -> Result<(), StateError> {
-    for (index, force) in model.forces.iter().enumerate() {
-        let known = users.is_some_and(|users| users.knows(index));
-        if let ForceKind::User(user) = ForceKind::of(force)
-            && !known
-        {
-            return Err(StateError::User {
-                force: force.name.clone(),
-                function: user.function.name.clone(),
-            });
-        }
-    }
-    Ok(())
+fn owned(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
 }
 
 /// Checks that a list of a state has as many numbers as `names`.
@@ -200,7 +161,7 @@ fn check_length(
     key: &'static str,
     what: &'static str,
     given: usize,
-    names: &[String],
+    names: &[&str],
 ) -> Result<(), StateError> {
     match given == names.len() {
         true => Ok(()),
@@ -208,13 +169,13 @@ fn check_length(
             key,
             what,
             given,
-            names: names.to_vec(),
+            names: owned(names),
         }),
     }
 }
 
 /// Checks that S (by rows) and the vectors r_s, r_k and v̇ (one after the other) are finite.
-fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[String]) -> Result<(), StateError> {
+fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[&str]) -> Result<(), StateError> {
     let size = velocities.len().max(1);
     let rows = matrix.chunks(size).enumerate();
     let rows = rows.map(|(row, values)| ("a number in the row of S", row, values));
@@ -229,7 +190,7 @@ fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[String]) -> Resul
         if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
             return Err(StateError::NotFinite {
                 quantity,
-                velocity: velocities[row].clone(),
+                velocity: velocities[row].to_owned(),
                 value,
             });
         }
@@ -237,68 +198,46 @@ fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[String]) -> Resul
     Ok(())
 }
 
+/// The model with these parameters.
+fn model(engine: &Engine, parameters: &[f64]) -> Interpreted<f64> {
+    let mut model = engine.interpreted();
+    model.set_parameters(parameters);
+    model
+}
+
 /// The state in which a run begins.
-pub fn start(model: &Model, equations: &Equations, parameters: &[f64]) -> State {
-    let at = |roots: &[NodeId]| of_parameters(model, equations, roots, parameters);
-    let of_laws = |states: &[LawState]| initial(model, equations, states, parameters);
+fn initial(model: &Interpreted<f64>) -> Vec<f64> {
+    let mut y = vec![0.0; model.info().state_length()];
+    model.initial_state(&mut y);
+    y
+}
+
+/// The state in which a run begins.
+pub fn start(engine: &Engine, parameters: &[f64]) -> State {
+    let info = engine.info();
+    let mut y = initial(&model(engine, parameters)).into_iter();
+    let mut next = |names: &[&str]| y.by_ref().take(names.len()).collect();
     State {
         t: 0.0,
-        q: at(&equations.initial_coordinates),
-        v: at(&equations.initial_velocities),
-        z: of_laws(&equations.auxiliaries),
-        m: of_laws(&equations.memory),
+        q: next(info.coordinates),
+        v: next(info.velocities),
+        z: next(info.auxiliaries),
+        m: next(info.memory),
     }
 }
 
-/// The states of force laws at the start of a run.
-fn initial(
-    model: &Model,
-    equations: &Equations,
-    states: &[LawState],
-    parameters: &[f64],
-) -> Vec<f64> {
-    let roots: Vec<NodeId> = states.iter().map(|state| state.initial).collect();
-    of_parameters(model, equations, &roots, parameters)
-}
-
-/// The condition that the parameters violate; `None` if they violate none.
-fn refused(model: &Model, equations: &Equations, parameters: &[f64]) -> Option<String> {
-    let roots: Vec<NodeId> = equations.conditions.iter().map(|c| c.value).collect();
-    let values = of_parameters(model, equations, &roots, parameters);
-    let mut conditions = equations.conditions.iter().zip(values);
-    let broken = conditions.find(|(condition, value)| !condition.rule.keeps(*value))?;
-    Some(broken.0.name.clone())
-}
-
-/// The values of `roots`, which depend only on parameters.
-fn of_parameters(
-    model: &Model,
-    equations: &Equations,
-    roots: &[NodeId],
-    parameters: &[f64],
-) -> Vec<f64> {
-    let inputs = Inputs {
-        time: 0.0,
-        coordinates: &[],
-        velocities: &[],
-        parameters,
-        auxiliaries: &[],
-        memory: &[],
-    };
-    evaluate(&equations.graph, roots, &inputs, &functions(model))
-}
-
-/// Checks that each quaternion, four coordinates with names that end in qw … qz, has length 1.
-fn check_quaternions(names: &[String], q: &[f64]) -> Result<(), StateError> {
-    for (i, name) in names.iter().enumerate() {
-        let Some(element) = name.strip_suffix(".qw") else {
-            continue;
-        };
-        let length = q[i..].iter().take(4).map(|x| x * x).sum::<f64>().sqrt();
-        if (length - 1.0).abs() > QUATERNION_TOLERANCE {
-            let element = element.to_owned();
-            return Err(StateError::Quaternion { element, length });
-        }
+/// Checks that a quaternion, whose first coordinate has this name, has length 1.
+fn check_quaternion(name: &str, q: &[f64]) -> Result<(), StateError> {
+    let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let element = name.strip_suffix(".qw").unwrap_or(name).to_owned();
+    match (length - 1.0).abs() > QUATERNION_TOLERANCE {
+        true => Err(StateError::Quaternion { element, length }),
+        false => Ok(()),
     }
-    Ok(())
+}
+
+/// The functions of a model that are not algebra, for plain numbers; a function of the user gives NaN.
+pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + use<> {
+    let curves: Vec<Curve> = model.curves.iter().map(Curve::from).collect();
+    bryant_engine::functions(&curves)
 }

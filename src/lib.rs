@@ -22,7 +22,7 @@
 //! | [`accuracy`] | the cost of accuracy in time: a study of one model |
 //! | [`stability`] | runs hard cases, and reports whether they keep their bounds |
 //! | [`sweep`] | studies: many runs of one model, in lanes |
-//! | [`evaluation`] | S, r_s, r_k and v̇ at one state without compiling |
+//! | [`evaluation`] | S, r_s, r_k and v̇ at one state, by the engine |
 //! | [`timing`] | the time of one evaluation |
 //! | [`settling`] | a state of rest |
 //! | [`scene`] | a motion as it is seen: shapes of bodies and forces |

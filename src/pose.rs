@@ -5,7 +5,7 @@
 //! quaternion (w, x, y, z) in space. Another element has the degrees of freedom of its joint, relative to its carrier.
 //! States in Bryant angles may be in another chart; they must be converted to [quaternions](crate::orientation) first.
 
-use crate::evaluation::stop;
+use bryant_engine::table;
 use bryant_generator::model::placement::placed;
 use bryant_generator::model::{
     Attachment, Body, Dimension, ElementId, FieldComponent, Given, Joint, Model, Number, Reference,
@@ -274,7 +274,7 @@ impl Numbers<'_> {
                 let (times, stretch) = (self.value(&scaled.times), self.value(&scaled.stretch));
                 let mut x = t / stretch;
                 if translation.stops.is_some() {
-                    let end = stop(curve, velocity[axis], times * stretch);
+                    let end = table(&curve.into()).stop(velocity[axis], times * stretch);
                     if 0.0 < end && end < x {
                         (x, moving) = (end, end * stretch);
                     }

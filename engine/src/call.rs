@@ -88,6 +88,17 @@ impl Library {
     }
 }
 
+/// The functions of a model with these curves, for plain numbers; a function of the user gives NaN.
+pub fn functions(curves: &[Curve]) -> impl Fn(Function, &[f64]) -> f64 + use<> {
+    let library = Library::new(curves, None);
+    move |function, arguments| {
+        let (part, parts) = function.part().unwrap_or((0, 1));
+        let mut results = vec![f64::NAN; parts];
+        library.call(function, arguments, &mut results);
+        results[part]
+    }
+}
+
 /// A call of a function as a task.
 struct Call<'a, T> {
     library: &'a Library,

@@ -56,6 +56,7 @@ mod sets;
 mod tests;
 mod user;
 
+pub use call::{functions, table};
 pub use execute::{Execute, Given};
 pub use interpret::Interpreter;
 pub use model::{Engine, Error, Evaluated, Interpreted, Machine};

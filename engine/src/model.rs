@@ -248,6 +248,13 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         machine
     }
 
+    /// The results of a method at a time and a state, such as the entries of S; none if the lists have no such method.
+    pub fn results(&self, method: Method, time: T, state: &[T]) -> Vec<T> {
+        let mut results = vec![T::from_f64(0.0); self.shared.length(method)];
+        self.at(method, time, state, &mut results);
+        results
+    }
+
     /// Computes the values that depend only on parameters.
     fn derive(&mut self) {
         derive(&mut self.execute, &self.parameters, &mut self.derived);

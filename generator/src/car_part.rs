@@ -7,10 +7,11 @@
 //! | `knee-bolster` | a padded panel before the knees |
 //! | `steering-column` | a steering wheel with hub and rim, on a column that yields along its axis |
 //!
-//! All numbers are usual magnitudes of sled models: **assumed**. The force of a cushion is the stress of seat foam as a
-//! function of its strain (17 kPa at 0.1 to 95 kPa at 0.7, and then hard), times the area that rests on it, 0.03 m²;
-//! the thickness is 100 mm.
+//! The planes are in `car_part.yaml`. All numbers are usual magnitudes of sled models: **assumed**.
 
+use crate::human::read;
+use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// The kind of a part.
@@ -47,12 +48,6 @@ pub struct CarPart {
     pub planar: bool,
 }
 
-/// Force of foam below a pelvis, against the depth \[mm, N\].
-const FOAM: &str = "[[0, 0], [10, 510], [20, 900], [30, 1320], [40, 1770], [50, 2100], [60, 2460], [70, 2850], [75, 33000]]";
-/// Force of a seat back, against the depth \[mm, N\].
-const BACK: &str = "[[0, 0], [50, 1500], [100, 6000], [150, 16000]]";
-/// Force of a knee bolster, against the depth \[mm, N\].
-const PANEL: &str = "[[0, 0], [20, 1500], [60, 4000], [120, 8000], [160, 20000]]";
 /// Force of the padding of a wheel, against the depth \[mm, N\].
 const PADDING: &str = "[[0, 0], [10, 1500], [30, 5000], [60, 15000], [120, 50000]]";
 /// Force along a column \[m, N\]: the column breaks away at 2 kN, yields at up to 3 kN over 100 mm, and then hits its
@@ -68,9 +63,9 @@ impl CarPart {
             self.name
         );
         match self.kind {
-            CarPartKind::Cushion => self.planes(&mut text, &[self.cushion()]),
-            CarPartKind::Seat => self.planes(&mut text, &[self.cushion(), self.back()]),
-            CarPartKind::KneeBolster => self.planes(&mut text, &[self.bolster()]),
+            CarPartKind::Cushion => self.planes(&mut text, &["cushion"]),
+            CarPartKind::Seat => self.planes(&mut text, &["cushion", "back"]),
+            CarPartKind::KneeBolster => self.planes(&mut text, &["panel"]),
             CarPartKind::SteeringColumn => self.column(&mut text),
         }
         text
@@ -100,8 +95,8 @@ impl CarPart {
     }
 
     /// The surfaces of a person that can touch the part, by their names in models of people.
-    fn surfaces(&self, person: &str, parts: &[&str]) -> Vec<String> {
-        let sides = |part: &&str| match part.strip_prefix("both-") {
+    fn surfaces(&self, person: &str, parts: &[impl AsRef<str>]) -> Vec<String> {
+        let sides = |part: &str| match part.strip_prefix("both-") {
             Some(limb) if self.planar => vec![format!("{person}-{limb}")],
             Some(limb) => vec![
                 format!("{person}-left-{limb}"),
@@ -109,74 +104,37 @@ impl CarPart {
             ],
             None => vec![format!("{person}-{part}")],
         };
-        parts.iter().flat_map(sides).collect()
+        parts.iter().flat_map(|part| sides(part.as_ref())).collect()
     }
 
-    fn cushion(&self) -> Plane<'_> {
-        Plane {
-            part: "cushion",
-            at: self.at,
-            // the front of a cushion is higher
-            leans: std::f64::consts::FRAC_PI_2
-                + self
-                    .angle
-                    .filter(|_| self.kind == CarPartKind::Cushion)
-                    .unwrap_or(11f64.to_radians()),
-            extent: [0.3, 0.25],
-            curve: FOAM,
-            keys: "damping: 300, friction: 0.4",
-            meets: &["pelvis", "both-thigh"],
-        }
-    }
-
-    fn back(&self) -> Plane<'_> {
-        Plane {
-            part: "back",
-            at: self.beside([-0.24, 0.12]),
-            leans: self.angle.unwrap_or(15f64.to_radians()),
-            extent: [0.45, 0.3],
-            curve: BACK,
-            keys: "damping: 300, friction: 0.4",
-            meets: &["pelvis", "abdomen", "thorax", "head"],
-        }
-    }
-
-    fn bolster(&self) -> Plane<'_> {
-        Plane {
-            part: "panel",
-            at: self.at,
-            leans: std::f64::consts::PI + self.angle.unwrap_or(-17f64.to_radians()),
-            extent: [0.2, 0.4],
-            curve: PANEL,
-            keys: "damping: 200, friction: 0.3",
-            meets: &["both-thigh"],
-        }
-    }
-
-    fn planes(&self, text: &mut String, planes: &[Plane<'_>]) {
+    /// Writes some of the planes, of which the last one leans as the part does.
+    fn planes(&self, text: &mut String, parts: &[&str]) {
         let CarPart {
             name, on, times, ..
         } = self;
+        let all: BTreeMap<String, Plane> = read(include_str!("car_part.yaml"));
+        let planes: Vec<(&str, &Plane)> = parts.iter().map(|part| (*part, &all[*part])).collect();
         text.push_str("curves:\n");
-        for plane in planes {
+        for (part, plane) in &planes {
             let _ = writeln!(
                 text,
-                "  {name}-{}: {{ unit: [mm, N], points: {}, extrapolate: linear }}",
-                plane.part, plane.curve
+                "  {name}-{part}: {{ unit: [mm, N], points: {}, extrapolate: linear }}",
+                plane.points
             );
         }
         text.push_str("surfaces:\n");
-        for plane in planes {
-            let normal = [libm::cos(plane.leans), 0.0, libm::sin(plane.leans)];
+        for (part, plane) in &planes {
+            let of_part = self.angle.filter(|_| parts.last() == Some(part));
+            let leans = plane.from.to_radians() + of_part.unwrap_or(plane.leans.to_radians());
+            let normal = [libm::cos(leans), 0.0, libm::sin(leans)];
             let along = match self.planar {
                 true => String::new(),
                 false => format!(", along: {}", self.vector([normal[2], 0.0, -normal[0]])),
             };
             let _ = writeln!(
                 text,
-                "  {name}-{}: {{ on: {on}, at: {}, normal: {}{along}, extent: {} }}",
-                plane.part,
-                self.vector(plane.at),
+                "  {name}-{part}: {{ on: {on}, at: {}, normal: {}{along}, extent: {} }}",
+                self.vector(self.beside(plane.beside)),
                 self.vector(normal),
                 self.extent(plane.extent)
             );
@@ -185,14 +143,13 @@ impl CarPart {
             return;
         }
         text.push_str("forces:\n");
-        for plane in planes {
+        for (part, plane) in &planes {
             for person in &self.against {
-                let surfaces = self.surfaces(person, plane.meets).join(", ");
+                let surfaces = self.surfaces(person, &plane.meets).join(", ");
                 let _ = writeln!(
                     text,
                     "  - {{ contact: {name}-{part}, ellipsoid: [{surfaces}], plane: {name}-{part}, elastic: {{ curve: {name}-{part}, times: {times} }}, {} }}",
-                    plane.keys,
-                    part = plane.part
+                    plane.keys
                 );
             }
         }
@@ -244,15 +201,21 @@ impl CarPart {
     }
 }
 
-/// A plane that belongs to a part.
-struct Plane<'a> {
-    part: &'static str,
-    at: [f64; 3],
-    /// Direction of its normal in the plane x–z, from x towards z \[rad\].
+/// A plane that belongs to a part: an entry of `car_part.yaml`.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Plane {
+    /// The force against the depth \[mm, N\].
+    points: String,
+    keys: String,
+    /// Place along x and z, from that of the part \[m\].
+    #[serde(default)]
+    beside: [f64; 2],
+    /// Direction of the normal in the plane x–z, from x towards z: an angle, and the usual inclination from there
+    /// \[deg\].
+    from: f64,
     leans: f64,
     /// Half-lengths along and across \[m\].
     extent: [f64; 2],
-    curve: &'static str,
-    keys: &'static str,
-    meets: &'a [&'static str],
+    meets: Vec<String>,
 }

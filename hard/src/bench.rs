@@ -3,7 +3,6 @@
 use crate::case::{Bound, Check, Found};
 use crate::scene::Scene;
 use bryant_generator::expression::Function;
-use bryant_generator::expression::evaluate::Functions;
 use bryant_generator::model::Model;
 use bryant_runtime::Report;
 use bryant_runtime::program::{Energy, Finding, Header, Job, RunError};
@@ -17,15 +16,13 @@ pub trait Engine: Sync {
     /// The scene is not a valid model, or does not compile. A failed run is not an error.
     fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble>;
 
-    /// The value of a function that generated code calls, such as a curve; NaN for a user function, which only compiled
-    /// code can call.
-    fn call(&self, model: &Model, function: Function, arguments: &[f64]) -> f64;
+    /// The functions that the equations of a model call, such as its curves; NaN for a user function, which only
+    /// compiled code can call.
+    fn functions(&self, model: &Model) -> Box<Call>;
 }
 
-/// The functions of a model as the evaluation of its equations needs them.
-pub fn functions<'a>(engine: &'a dyn Engine, model: &'a Model) -> impl Functions<f64> + 'a {
-    |function: Function, arguments: &[f64]| engine.call(model, function, arguments)
-}
+/// The value of a function at its arguments.
+pub type Call = dyn Fn(Function, &[f64]) -> f64;
 
 /// The result of a run, complete or failed.
 #[derive(Clone, Debug)]

@@ -38,7 +38,7 @@ mod stiff_chains;
 mod stiffness;
 mod tree;
 
-pub use bench::{Bench, Engine, Run, Trouble};
+pub use bench::{Bench, Call, Engine, Run, Trouble};
 pub use case::{Bound, Case, Check, Found, Group};
 pub use scene::Scene;
 

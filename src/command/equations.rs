@@ -9,21 +9,22 @@ use super::prepare::users_of;
 use super::progress::Progress;
 use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
+use crate::equations::of_lists;
 use crate::evaluation::{self, Evaluation, State};
 use crate::files;
 use crate::notation::Notation;
 use crate::signature::Kind;
-use bryant_engine::UserFunctions;
 use bryant_generator::Config;
 use bryant_generator::description::load::read_file;
 use bryant_generator::description::tree::MAX_BYTES;
-use bryant_generator::dynamics::{derive, derive_in_first_chart};
+use bryant_generator::dynamics::derive_in_first_chart;
 use bryant_generator::equations::{Equations, Variable};
 use bryant_generator::expression::print::{Names, latex, text};
 use bryant_generator::expression::{NodeId, Symbol};
 use bryant_generator::model::{Coordinates, Curve, Dimension, Extrapolate, Interpolate, Model};
 use bryant_generator::target::c::Source;
 use bryant_picture::text::typeset;
+use bryant_runtime::Info;
 use clap::{Args, ValueEnum};
 use std::fmt::Write as _;
 use std::io::Read;
@@ -132,13 +133,13 @@ impl Arguments {
                 self.latex,
             ));
         }
-        let equations = derive(&model);
+        let lists = Config::new().lists(&model);
         drop(progress);
-        let parameters = values_of(&model, &set);
-        let state = state.unwrap_or_else(|| evaluation::start(&model, &equations, &parameters));
         let users = users_of(&found, &model, terminal)?;
-        let functions = users.as_deref().map(|users| users as &dyn UserFunctions);
-        let values = evaluation::at(&model, &equations, &parameters, &state, functions);
+        let engine = of_lists(lists, users.clone()).map_err(Error::system)?;
+        let parameters = values_of(&model, &set);
+        let state = state.unwrap_or_else(|| evaluation::start(&engine, &parameters));
+        let values = evaluation::at(&engine, &parameters, &state);
         // if a user function panicked, its message says more than a missing number
         if let Some(failure) = users.as_deref().and_then(UserForces::failure) {
             return Err(Error::User(failure.problems.clone()));
@@ -147,7 +148,7 @@ impl Arguments {
         if self.json {
             terminal.print_json(&values)
         } else {
-            terminal.print(&table(&equations, &state, &values))
+            terminal.print(&table(engine.info(), &values))
         }
     }
 
@@ -371,35 +372,28 @@ const POINTS_SHOWN: usize = 12;
 const DIGITS: usize = 7;
 
 /// The values as text: S as a grid; the vectors as columns beside the names of the velocities.
-fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
+fn table(info: &Info, values: &Evaluation) -> String {
+    let state = &values.state;
     let mut text = format!("t = {} s\n\n", state.t);
-    let width = |names: &[String]| {
-        names
-            .iter()
-            .map(|n| n.chars().count())
-            .max()
-            .unwrap_or(0)
-            .max(10)
+    let width = |names: &[&str]| {
+        let widths = names.iter().map(|name| name.chars().count());
+        widths.max().unwrap_or(0).max(10)
     };
-    let first = width(&values.coordinates);
+    let (of_coordinates, of_velocities) = info.units.split_at(info.coordinates.len());
+    let first = width(info.coordinates);
     let _ = writeln!(text, "{:first$}  {:>14}", "coordinate", "q");
-    for (variable, value) in equations.coordinates.iter().zip(&state.q) {
-        let line = format!(
-            "{:first$}  {:>14}  {}",
-            variable.name,
-            number(*value, DIGITS),
-            typeset(variable.unit)
-        );
+    for ((name, unit), value) in info.coordinates.iter().zip(of_coordinates).zip(&state.q) {
+        let (value, unit) = (number(*value, DIGITS), typeset(unit));
+        let line = format!("{name:first$}  {value:>14}  {unit}");
         let _ = writeln!(text, "{}", line.trim_end());
     }
-    let first = width(&values.velocities);
+    let first = width(info.velocities);
     let _ = writeln!(
         text,
         "\n{:first$}  {:>14}  {:>14}  {:>14}  {:>14}  units",
         "velocity", "v", "r_s", "r_k", "dv/dt"
     );
-    for (i, variable) in equations.velocities.iter().enumerate() {
-        let (name, unit) = (&variable.name, variable.unit);
+    for (i, (name, unit)) in info.velocities.iter().zip(of_velocities).enumerate() {
         let numbers = [
             state.v[i],
             values.r_s[i],
@@ -409,7 +403,7 @@ fn table(equations: &Equations, state: &State, values: &Evaluation) -> String {
         let numbers = numbers
             .map(|n| format!("{:>14}", number(n, DIGITS)))
             .join("  ");
-        let force = if unit == "m/s" { "N" } else { "N·m" };
+        let force = if *unit == "m/s" { "N" } else { "N·m" };
         let _ = writeln!(
             text,
             "{name:first$}  {numbers}  {unit}, {force}, {force}, {unit}²"

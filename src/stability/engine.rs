@@ -4,9 +4,8 @@ use crate::accuracy::run;
 use crate::equations;
 use crate::equations::Engine as Equations;
 use crate::evaluation::functions;
-use bryant_generator::expression::Function;
 use bryant_generator::model::Model;
-use bryant_hard::{Engine, Run, Scene, Trouble};
+use bryant_hard::{Call, Engine, Run, Scene, Trouble};
 use bryant_runtime::program::Job;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -64,7 +63,7 @@ impl Engine for Scenes {
         })
     }
 
-    fn call(&self, model: &Model, function: Function, arguments: &[f64]) -> f64 {
-        functions(model)(function, arguments)
+    fn functions(&self, model: &Model) -> Box<Call> {
+        Box::new(functions(model))
     }
 }

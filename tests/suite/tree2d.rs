@@ -5,8 +5,10 @@
 
 use crate::motion::{at, close, run_with_bound};
 use bryant::evaluation::{self, State};
+use bryant_engine::Engine;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Route;
+use bryant_generator::program::{self, lists};
 use bryant_tests::models::{self, MODELS};
 use serde_yaml::Value;
 
@@ -62,7 +64,9 @@ fn mass_matrix_and_accelerations_are_those_of_the_reference() {
                 route: Some(route),
             },
         );
-        let ours = evaluation::at(&model, &equations, &[], &state, None).expect("six coordinates");
+        let lists = lists(&model, &equations, &program::Options::default());
+        let engine = Engine::new(lists).expect("no function of a user");
+        let ours = evaluation::at(&engine, &[], &state).expect("six coordinates");
         let rows = reference["S"].as_sequence().expect("rows");
         let matrix: Vec<f64> = rows
             .iter()

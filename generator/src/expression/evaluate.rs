@@ -1,8 +1,8 @@
 //! Evaluates expressions at given inputs, over any scalar type: interprets the graph, operands before their users.
 //!
-//! Tests compare compiled equations with these values, and states are printed with them. Over other scalars
-//! (double-doubles, dual numbers) reference values and derivatives are obtained without a compiler. The force laws
-//! belong to the runtime, so the caller provides the functions that calls need.
+//! It is the reference of hard cases and tests, which need no schedule, no list and no engine for it: over numbers that
+//! know their rounding errors, double-doubles and dual numbers. The force laws belong to the runtime, so the caller
+//! provides the functions that calls need. Programs that run a model use the engine.
 
 use super::graph::{Graph, flatten};
 use super::live::Live;

@@ -21,6 +21,7 @@ mod text;
 
 pub use body::{Body, Element, Shape, body};
 pub use data::Sex;
+pub(crate) use data::read;
 pub use posture::{JOINTS, Posture};
 pub use size::{NAMES, Person, Size};
 pub use text::{Neutral, Written, yaml};

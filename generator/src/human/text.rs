@@ -1,189 +1,88 @@
 //! A body as YAML: a file that models can include.
 
 use super::body::{Body, Element, Joint, body};
-use super::data::Sex;
+use super::data::{Sex, read};
 use super::dummy::{Made, dummy};
 use super::posture::Posture;
 use super::size::{Person, Size};
+use serde::Deserialize;
 use std::fmt::Write as _;
 
+/// The laws of all joints: `laws.yaml`, which says where they are from.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Laws {
+    spine: Vec<Spine>,
+    limbs: Vec<Limb>,
+    dummy: DummyLaws,
+}
+
+/// The laws of a joint of the spine, the order of its turns, and the stops about x and about z.
+#[derive(Deserialize)]
+struct Spine {
+    joint: String,
+    order: String,
+    aside: Law,
+    forward: Law,
+    stops: [Stop; 2],
+}
+
+/// The law of a degree of freedom of a limb.
+#[derive(Deserialize)]
+struct Limb {
+    joint: String,
+    #[serde(default)]
+    freedom: String,
+    #[serde(flatten)]
+    law: Law,
+}
+
+/// The laws that crash dummies have instead.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct DummyLaws {
+    neck_mass: f64,
+    aside: Law,
+    forward: Law,
+    lumbar: f64,
+    hip: Law,
+}
+
 /// The law of a joint: elastic torque, damping, stop.
+#[derive(Deserialize)]
 struct Law {
-    /// Angle \[rad\] and torque \[N m\].
-    elastic: &'static [[f64; 2]],
-    /// Damping \[N m s\].
+    stiffness: Option<f64>,
+    #[serde(default)]
+    points: Vec<[f64; 2]>,
     damping: f64,
     stop: Option<Stop>,
 }
 
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Stop {
-    /// Angles of the stops \[deg\].
     between: [f64; 2],
-    /// Stiffness of the stops \[N m\] per rad.
     stiffness: f64,
-    /// Damping of the stops \[N m s\].
+    #[serde(default)]
     damping: f64,
 }
-
-const fn elastic(elastic: &'static [[f64; 2]], damping: f64) -> Law {
-    Law {
-        elastic,
-        damping,
-        stop: None,
-    }
-}
-
-const fn stop(damping: f64, between: [f64; 2], [stiffness, damping_of_stop]: [f64; 2]) -> Law {
-    Law {
-        elastic: &[],
-        damping,
-        stop: Some(Stop {
-            between,
-            stiffness,
-            damping: damping_of_stop,
-        }),
-    }
-}
-
-/// The order of the turns of a joint of the spine. The lumbar spine nods first, a neck last, about the axis of the head, as its load cell reads. The
-/// middle one is not to nod: its angle may not come to 90°.
-fn order(joint: &str) -> &'static str {
-    match joint {
-        "head" => "xzy",
-        _ => "yxz",
-    }
-}
-
-/// How far the joints of the spine bend aside, and turn about the long axis, before a stop pushes back \[deg\], with its stiffness and damping. A healthy
-/// neck bends aside by 45° (clinical norm) to 63°, and turns by 73° to 100° (NASA-STD-3000, 95th percentile: from memory, unverified). Those of the
-/// lumbar spine and all stiffnesses are assumed: they end what no spine does, and keep the middle turn away from 90°.
-const NECK_ASIDE: Stop = ends(60.0);
-const NECK_TWIST: Stop = ends(70.0);
-const LUMBAR_ASIDE: Stop = ends(40.0);
-const LUMBAR_TWIST: Stop = ends(40.0);
-
-const fn ends(at: f64) -> Stop {
-    Stop {
-        between: [-at, at],
-        stiffness: 1500.0,
-        damping: 15.0,
-    }
-}
-
-/// Laws of the joints of the spine: first about x and z, then about y; then the stops about x and about z. A positive angle about y leans forward. The
-/// turn about y is the first of the three, because it is the widest; the middle one is the one about x.
-const SPINE: [(&str, [Law; 2], [Stop; 2]); 3] = [
-    ("abdomen", LUMBAR, [LUMBAR_ASIDE, LUMBAR_TWIST]),
-    ("thorax", LUMBAR, [LUMBAR_ASIDE, LUMBAR_TWIST]),
-    (
-        "head",
-        [
-            elastic(&[[1.0, 60.0]], 1.0),
-            elastic(
-                &[
-                    [-1.0, -130.0],
-                    [-0.4, -26.0],
-                    [0.0, 0.0],
-                    [0.4, 73.0],
-                    [1.0, 320.0],
-                ],
-                1.0,
-            ),
-        ],
-        [NECK_ASIDE, NECK_TWIST],
-    ),
-];
-const LUMBAR: [Law; 2] = [
-    elastic(&[[1.0, 120.0]], 3.0),
-    elastic(
-        &[
-            [-1.0, -1000.0],
-            [-0.09, -40.0],
-            [0.0, 0.0],
-            [0.09, 40.0],
-            [1.0, 1000.0],
-        ],
-        3.0,
-    ),
-];
-/// The neck of crash dummies for the 50th percentile male: the two joints of `models/data/neck-rig.yaml` in one, fitted to 49 CFR 572.33.
-const DUMMY_NECK: [Law; 2] = [
-    elastic(&[[1.0, 60.0]], 0.32),
-    elastic(
-        &[
-            [-2.0, -141.0],
-            [-1.2, -61.1],
-            [-0.6, -25.8],
-            [0.0, 0.0],
-            [0.6, 60.1],
-            [1.2, 142.0],
-            [2.0, 328.0],
-        ],
-        0.32,
-    ),
-];
-/// Factor on the lumbar spine for crash dummies, fitted to 49 CFR 572.135 for the 5th percentile female. See docs/validation.md for this and the
-/// neck.
-const DUMMY_LUMBAR: f64 = 0.693;
-/// Laws of the degrees of freedom of limbs. Flexion about y is negative if it lifts a thigh, an upper arm or a forearm forward, and positive if it
-/// bends a knee. Abduction of the left side is positive outwards.
-const LIMBS: [(&str, &str, Law); 10] = [
-    (
-        "left-upper-arm",
-        "flexion",
-        stop(1.5, [-170.0, 60.0], [500.0, 0.0]),
-    ),
-    (
-        "left-upper-arm",
-        "abduction",
-        stop(1.5, [-20.0, 70.0], [1500.0, 15.0]),
-    ),
-    (
-        "left-upper-arm",
-        "rotation",
-        stop(1.5, [-60.0, 60.0], [500.0, 0.0]),
-    ),
-    ("left-forearm", "", stop(1.5, [-145.0, 0.0], [500.0, 0.0])),
-    ("left-hand", "", stop(0.5, [-70.0, 70.0], [100.0, 0.0])),
-    (
-        "left-thigh",
-        "flexion",
-        stop(2.0, [-120.0, 15.0], [500.0, 0.0]),
-    ),
-    (
-        "left-thigh",
-        "abduction",
-        stop(2.0, [-25.0, 40.0], [500.0, 0.0]),
-    ),
-    (
-        "left-thigh",
-        "rotation",
-        stop(2.0, [-35.0, 40.0], [500.0, 0.0]),
-    ),
-    ("left-shank", "", stop(1.5, [0.0, 140.0], [500.0, 0.0])),
-    ("left-foot", "", stop(1.0, [-20.0, 45.0], [300.0, 0.0])),
-];
-
-/// The flexion of a dummy's hip: its stop is fitted to 49 CFR 572.35(c) for the 50th percentile male.
-const DUMMY_HIP: Law = stop(2.0, [-120.0, 15.0], [777.0, 0.0]);
 
 impl Law {
     /// The law as YAML keys, with torques times a factor.
     fn keys(&self, factor: f64) -> String {
         let mut keys = Vec::new();
-        match self.elastic {
-            [] => {}
-            [[_, stiffness]] => keys.push(format!("stiffness: {}", short(factor * stiffness))),
-            points => {
-                let points = points
-                    .iter()
-                    .map(|[angle, torque]| format!("[{angle}, {}]", short(factor * torque)));
-                let points: Vec<String> = points.collect();
-                keys.push(format!(
-                    "elastic: {{ points: [{}], extrapolate: linear }}",
-                    points.join(", ")
-                ));
-            }
+        if let Some(stiffness) = self.stiffness {
+            keys.push(format!("stiffness: {}", short(factor * stiffness)));
+        }
+        if !self.points.is_empty() {
+            let points = self.points.iter();
+            let points =
+                points.map(|[angle, torque]| format!("[{angle}, {}]", short(factor * torque)));
+            let points: Vec<String> = points.collect();
+            keys.push(format!(
+                "elastic: {{ points: [{}], extrapolate: linear }}",
+                points.join(", ")
+            ));
         }
         keys.push(format!("damping: {}", short(factor * self.damping)));
         if let Some(stop) = &self.stop {
@@ -335,9 +234,6 @@ fn strength(body: &Body) -> f64 {
     body.mass() / 77.7 * (body.stature / 1.753)
 }
 
-/// The mass of the neck for which [`DUMMY_NECK`] holds \[kg\]. The neck laws of other sizes are scaled by their mass.
-const NECK: f64 = 1.5422;
-
 /// A body while it is written as text.
 struct Scene<'a> {
     body: &'a Body,
@@ -437,56 +333,64 @@ impl Scene<'_> {
             ("shank", shank),
             ("foot", shank + posture.angle("feet")),
         ];
-        if self.written.planar {
-            let all = spine.iter().chain(&limbs);
-            let all = all.map(|(name, angle)| (name, trunk + angle));
-            let turned = all.filter(|(_, angle)| *angle != 0.0);
-            let turned: Vec<String> = turned
-                .map(|(name, angle)| format!("{name}: {}", degrees(angle)))
-                .collect();
+        // names with an angle, and what is written around it
+        let mut angles = |key: &str, all: &[(&str, f64, [&str; 2])]| {
+            let turned = all.iter().filter(|(_, angle, _)| *angle != 0.0);
+            let turned = turned.map(|(name, angle, [before, after])| {
+                format!("{name}: {before}{}{after}", degrees(*angle))
+            });
+            let turned: Vec<String> = turned.collect();
             if !turned.is_empty() {
-                let _ = writeln!(text, "      angles: {{ {} }}", turned.join(", "));
+                let _ = writeln!(text, "      {key}: {{ {} }}", turned.join(", "));
             }
+        };
+        const ALONE: [&str; 2] = ["", ""];
+        const FIRST: [&str; 2] = ["[", ", 0, 0]"];
+        const ABOUT_Y: [&str; 2] = ["[0, ", ", 0]"];
+        if self.written.planar {
+            let all = spine.into_iter().chain(limbs);
+            let all = all.map(|(name, angle)| (name, trunk + angle, ALONE));
+            angles("angles", &all.collect::<Vec<_>>());
             return;
         }
-        let turned = spine.iter().map(|(name, angle)| (name, trunk + angle));
-        let turned = turned.filter(|(_, angle)| *angle != 0.0);
-        let turned: Vec<String> = turned
-            .map(|(name, angle)| format!("{name}: [0, {}, 0]", degrees(angle)))
-            .collect();
-        if !turned.is_empty() {
-            let _ = writeln!(text, "      angles: {{ {} }}", turned.join(", "));
-        }
+        angles(
+            "angles",
+            &spine.map(|(name, angle)| (name, trunk + angle, ABOUT_Y)),
+        );
         let joints = [
-            ("thigh", "thighs", true),
-            ("shank", "shanks", false),
-            ("foot", "feet", false),
-            ("upper-arm", "upper_arms", true),
-            ("forearm", "forearms", false),
-            ("hand", "hands", false),
+            ("left-thigh", "thighs", FIRST),
+            ("left-shank", "shanks", ALONE),
+            ("left-foot", "feet", ALONE),
+            ("left-upper-arm", "upper_arms", FIRST),
+            ("left-forearm", "forearms", ALONE),
+            ("left-hand", "hands", ALONE),
         ];
-        let joints = joints.map(|(name, of, three)| (name, posture.angle(of), three));
-        let joints = joints.iter().filter(|(_, angle, _)| *angle != 0.0);
-        let joints: Vec<String> = joints
-            .map(|(name, angle, three)| match three {
-                true => format!("left-{name}: [{}, 0, 0]", degrees(*angle)),
-                false => format!("left-{name}: {}", degrees(*angle)),
-            })
-            .collect();
-        if !joints.is_empty() {
-            let _ = writeln!(text, "      joints: {{ {} }}", joints.join(", "));
-        }
+        angles(
+            "joints",
+            &joints.map(|(name, of, around)| (name, posture.angle(of), around)),
+        );
     }
 
     fn laws(&self, text: &mut String) {
         let name = self.written.name;
-        for (joint, of_people, stops) in &SPINE {
-            let ([aside, forward], factor) = match (&self.dummy, *joint) {
+        let all: Laws = read(include_str!("laws.yaml"));
+        for spine in &all.spine {
+            let Spine {
+                joint,
+                order,
+                stops,
+                ..
+            } = spine;
+            let of_people = [&spine.aside, &spine.forward];
+            let ([aside, forward], factor) = match (&self.dummy, &**joint) {
                 (None, _) => (of_people, self.factor),
-                (Some(dummy), "head") => (&DUMMY_NECK, dummy.neck / NECK),
-                (Some(_), _) => (of_people, DUMMY_LUMBAR * self.factor),
+                (Some(dummy), "head") => {
+                    let neck = [&all.dummy.aside, &all.dummy.forward];
+                    (neck, dummy.neck / all.dummy.neck_mass)
+                }
+                (Some(_), _) => (of_people, all.dummy.lumbar * self.factor),
             };
-            let neutral = match (self.written.neutral, *joint) {
+            let neutral = match (self.written.neutral, &**joint) {
                 // the parts of the trunk lean alike
                 (Neutral::Posture, "head") => self.written.posture.angle("head"),
                 _ => 0.0,
@@ -502,22 +406,25 @@ impl Scene<'_> {
                     let aside = aside.keys(factor);
                     let [x, z] = stops.each_ref().map(|stop| stop.key(factor));
                     format!(
-                        "about: {{ order: {}, x: {{ {aside}, {x} }}, y: {{ {forward} }}, z: {{ {aside}, {z} }} }}",
-                        order(joint)
+                        "about: {{ order: {order}, x: {{ {aside}, {x} }}, y: {{ {forward} }}, z: {{ {aside}, {z} }} }}"
                     )
                 }
             };
             let _ = writeln!(text, "  - {{ joint: {name}/{joint}, {law} }}");
         }
-        for (joint, freedom, law) in &LIMBS {
-            let is_hip = (*joint, *freedom) == ("left-thigh", "flexion");
-            let law = if is_hip && self.dummy.is_some() {
-                &DUMMY_HIP
-            } else {
-                law
+        for Limb {
+            joint,
+            freedom,
+            law,
+        } in &all.limbs
+        {
+            let is_hip = (&**joint, &**freedom) == ("left-thigh", "flexion");
+            let law = match is_hip && self.dummy.is_some() {
+                true => &all.dummy.hip,
+                false => law,
             };
             if self.written.planar {
-                if matches!(*freedom, "" | "flexion") {
+                if matches!(&**freedom, "" | "flexion") {
                     let law = law.keys(2.0 * self.factor);
                     let _ = writeln!(
                         text,
@@ -527,7 +434,7 @@ impl Scene<'_> {
                 }
                 continue;
             }
-            let freedom = match *freedom {
+            let freedom = match &**freedom {
                 "" => String::new(),
                 freedom => format!("name: {freedom}, freedom: {freedom}, "),
             };

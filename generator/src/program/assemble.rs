@@ -8,7 +8,7 @@ use super::{Costs, Curve, Facts, List, Lists, Method, Options, Routine, Start};
 use crate::equations::Equations;
 use crate::law::ForceKind;
 use crate::method::inputs::Inputs;
-use crate::model::{Interpolate, Model};
+use crate::model::Model;
 use std::ops::Range;
 
 /// The methods of a model as lists. The result depends only on the arguments and on the version of this crate.
@@ -36,7 +36,7 @@ pub fn counted_lists(
     let lists = Lists {
         facts: Facts::of(model, equations),
         routines: parts.map(together).into(),
-        curves: curves(model),
+        curves: model.curves.iter().map(Curve::from).collect(),
         users: users(model),
         rules: equations.conditions.iter().map(|c| c.rule).collect(),
         stretched: equations
@@ -74,20 +74,6 @@ fn together(mut parts: Vec<Routine>) -> Routine {
             list: List::joined(parts.iter().map(|routine| &routine.list)),
         },
     }
-}
-
-fn curves(model: &Model) -> Vec<Curve> {
-    let curves = model.curves.iter().map(|curve| {
-        let points = 0..curve.points.len();
-        let cubic = curve.interpolate == Interpolate::Cubic;
-        Curve {
-            name: curve.name.clone(),
-            points: curve.points.clone(),
-            tangents: cubic.then(|| points.map(|k| curve.tangent(k)).collect()),
-            extrapolate: curve.extrapolate,
-        }
-    });
-    curves.collect()
 }
 
 fn users(model: &Model) -> Vec<Option<String>> {

@@ -2,7 +2,7 @@
 
 use super::{Facts, List};
 use crate::method::{Method, Start};
-use crate::model::{Extrapolate, Rule};
+use crate::model::{self, Extrapolate, Interpolate, Rule};
 use std::ops::Range;
 
 /// A method as a list.
@@ -25,6 +25,19 @@ pub struct Curve {
     pub tangents: Option<Vec<f64>>,
     /// The extrapolation beyond the end points.
     pub extrapolate: Extrapolate,
+}
+
+impl From<&model::Curve> for Curve {
+    fn from(curve: &model::Curve) -> Curve {
+        let cubic = curve.interpolate == Interpolate::Cubic;
+        let tangents = (0..curve.points.len()).map(|k| curve.tangent(k));
+        Curve {
+            name: curve.name.clone(),
+            points: curve.points.clone(),
+            tangents: cubic.then(|| tangents.collect()),
+            extrapolate: curve.extrapolate,
+        }
+    }
 }
 
 /// A model as lists: everything needed to evaluate it.

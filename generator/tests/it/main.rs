@@ -16,5 +16,6 @@ mod reference;
 #[path = "../../../tests/suite/share.rs"]
 mod share;
 mod short;
+mod texts;
 mod urdf;
 mod user;

@@ -4,7 +4,7 @@
 use super::caught::Tried;
 use super::sample;
 use super::tree;
-use crate::bench::{Bench, Engine, Trouble, functions};
+use crate::bench::{Bench, Engine, Trouble};
 use crate::case::{Case, Group};
 use crate::random::Random;
 use crate::rounding::Rounded;
@@ -107,7 +107,7 @@ fn values(
         memory: &state.m,
     };
     let (value, scatter) =
-        Rounded::new(graph, roots).evaluate(&inputs, &functions(engine, model), f64::EPSILON);
+        Rounded::new(graph, roots).evaluate(&inputs, &engine.functions(model), f64::EPSILON);
     Values { value, scatter }
 }
 

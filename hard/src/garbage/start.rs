@@ -1,7 +1,7 @@
 //! Evaluates the equations of a model at the start of a run without compilation: finds values that are not finite, and
 //! whether a run would report them.
 
-use crate::bench::{Engine, functions};
+use crate::bench::Engine;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::NodeId;
@@ -44,7 +44,7 @@ impl<'a> Start<'a> {
     /// Evaluates everything that a run evaluates before its first sample, with these parameters.
     pub fn at(&self, parameters: &[f64]) -> Found {
         let equations = &self.equations;
-        let functions = functions(self.engine, self.model);
+        let functions = self.engine.functions(self.model);
         let values = |roots: &[NodeId], q: &[f64], v: &[f64], z: &[f64], m: &[f64]| {
             let inputs = Inputs {
                 time: 0.0,

@@ -7,6 +7,8 @@ mod told;
 
 use super::read;
 use bryant::evaluation::{State, at, functions};
+use bryant_engine::Engine;
+use bryant_generator::Config;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Equations;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
@@ -155,6 +157,7 @@ impl Wrench {
 struct Scene {
     model: Model,
     equations: Equations,
+    engine: Engine,
 }
 
 impl Scene {
@@ -168,7 +171,11 @@ impl Scene {
             route: None,
         };
         let equations = derive_with(&model, options);
-        Scene { model, equations }
+        Scene {
+            engine: Engine::new(Config::new().lists(&model)).unwrap(),
+            model,
+            equations,
+        }
     }
 
     /// A state of the body and of laws; memory by a part of its name, 0 by default.
@@ -211,8 +218,7 @@ impl Scene {
     /// The wrench on the body.
     fn acts(&self, body: &Moving, t: f64, z: &[f64], memory: &[(&str, f64)]) -> Wrench {
         let state = self.state(body, t, z, memory);
-        let found =
-            at(&self.model, &self.equations, &[], &state, None).unwrap_or_else(|e| panic!("{e}"));
+        let found = at(&self.engine, &[], &state).unwrap_or_else(|e| panic!("{e}"));
         let [force, moment] = [0, 3].map(|i| std::array::from_fn(|k| found.acceleration[i + k]));
         Wrench {
             force: times(MASS, force),

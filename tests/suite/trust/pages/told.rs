@@ -243,11 +243,7 @@ fn a_limiter_pays_out_by_the_stretch_alone() {
 fn a_planar_bushing_counts_turns() {
     let text = "model: page\ndimension: 2\nsystems:\n  - name: one\n    elements: [{ name: body, mass: 2, cg: [0, 0], inertia: 0.5 }]\nforces:\n  - { bushing: b, from: { on: frame, at: [0, 0] }, to: { on: one/body, at: [0, 0] }, about: { y: { stiffness: 3 } } }\n";
     let model = read(text).unwrap_or_else(|problems| panic!("{problems:#?}"));
-    let options = Options {
-        matrices: true,
-        route: None,
-    };
-    let equations = derive_with(&model, options);
+    let engine = Engine::new(Config::new().lists(&model)).unwrap();
     for angle in [
         0.3,
         0.3 + std::f64::consts::TAU,
@@ -260,7 +256,7 @@ fn a_planar_bushing_counts_turns() {
             z: vec![],
             m: vec![],
         };
-        let found = at(&model, &equations, &[], &state, None).unwrap_or_else(|e| panic!("{e}"));
+        let found = at(&engine, &[], &state).unwrap_or_else(|e| panic!("{e}"));
         let expected = -3.0 * angle / 0.5;
         let off = (found.acceleration[2] - expected).abs();
         assert!(
