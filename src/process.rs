@@ -22,6 +22,23 @@ pub fn stdout_was_closed() -> bool {
     false
 }
 
+/// The command line of this process, quoted for a shell.
+pub fn command_line() -> String {
+    let words = std::env::args_os().skip(1);
+    let words = words.map(|word| quoted(&word.to_string_lossy()));
+    let words: Vec<String> = std::iter::once("bryant".to_owned()).chain(words).collect();
+    words.join(" ")
+}
+
+/// A word quoted for a shell.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:%+@,".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
+
 /// True if the terminal of standard error shows colours. On Windows this asks the terminal to do so.
 pub fn shows_colours() -> bool {
     #[cfg(windows)]

@@ -7,7 +7,7 @@
 //! **Growth.** The run is repeated from a start in which each entry is changed by the share `MOVED`. The difference of
 //! the outputs over that share is the factor by which an error grows.
 
-use super::target::{Difference, largest};
+use super::difference::{Difference, largest};
 use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::StateKind;
 use bryant_runtime::program::{Job, Start};

@@ -15,10 +15,11 @@
 //! difference exceeds [`FAR`].
 
 use super::cause::{self, Cause};
-use super::comparison::{Comparison, PROMISED, doubt_lasts, sharper};
+use super::comparison::{Comparison, FINEST, PROMISED, doubt_lasts, sharper};
+use super::difference::Difference;
 use super::run;
 use super::setting::{Pace, Setting};
-use super::target::{Difference, FINEST, second_opinion};
+use super::target::second_opinion;
 use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};

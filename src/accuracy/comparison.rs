@@ -6,8 +6,8 @@
 //! errors](super::conditioning). Its size in the sharpest run is then an upper bound.
 
 use super::conditioning;
-use super::setting::{Pace, Setting};
-use super::target::{Difference, FINEST, NOISE, SHRUNK, largest, largest_by_unit, rounded};
+use super::difference::{Difference, NOISE, SHRUNK, largest, largest_by_unit};
+use super::setting::{Pace, Setting, two_digits};
 use crate::simulation::{Recording, Runs};
 use bryant_runtime::Tolerances;
 use bryant_runtime::batch::rows::Asked;
@@ -17,6 +17,8 @@ use bryant_runtime::response::Answer;
 /// The error of each output, relative to its largest magnitude, that a run promises unless the user requests another
 /// accuracy.
 pub const PROMISED: f64 = 1e-3;
+/// Smallest tolerance; rounding errors make smaller ones useless.
+pub(super) const FINEST: f64 = 1e-13;
 
 /// What is known of the outputs and responses of a job from its runs so far.
 pub struct Comparison<'a> {
@@ -126,7 +128,7 @@ impl<'a> Comparison<'a> {
 /// A tenth of the tolerance of a setting, as far as rounding allows; 10⁻⁸ for fixed steps, whose accuracy is not known.
 pub fn sharper(setting: &Setting) -> f64 {
     match setting.pace {
-        Pace::Tolerance(tolerance) => rounded(0.1 * tolerance).max(FINEST),
+        Pace::Tolerance(tolerance) => two_digits(0.1 * tolerance).max(FINEST),
         Pace::Step(_) => 1e-8,
     }
 }

@@ -190,10 +190,9 @@ fn at_most(study: &Study, point: &Point) -> bool {
 
 /// An error in words: "1 %", "0.01 %", "1e-6"
 pub fn percent(error: f64) -> String {
-    let rounded = |number: f64| format!("{number:.1e}").parse().unwrap_or(f64::NAN);
     match error {
-        error if error >= 1e-4 => format!("{} %", rounded(100.0 * error)),
-        error => format!("{:e}", rounded(error)),
+        error if error >= 1e-4 => format!("{} %", two_digits(100.0 * error)),
+        error => format!("{:e}", two_digits(error)),
     }
 }
 

@@ -8,7 +8,7 @@
 //! these terms, so they are evaluated where the output itself is largest: the moment of a hinge has larger rounding
 //! errors in an impact than at rest.
 
-use super::target::largest;
+use super::difference::largest;
 use crate::interrupt;
 use crate::simulation::{Recording, Runs};
 use bryant_runtime::Method;

@@ -17,7 +17,7 @@
 //! | [`report`] | a study as a table, a page, CSV, JSON and a diagram |
 //! | [`target`] | a run of a requested accuracy |
 //! | [`check`] | a run of the promised accuracy, checked by a second run |
-//! | [`comparison`] | what two runs must agree in, and how much sharper the next one is |
+//! | [`difference`], [`comparison`] | how far two runs are apart; what of it counts, and how much sharper the next one is |
 //! | [`conditioning`], [`cause`] | how precisely an output can be known; why two runs do not agree |
 
 pub mod cause;
@@ -25,6 +25,7 @@ pub mod check;
 pub mod comparison;
 pub mod conclusion;
 pub mod conditioning;
+pub mod difference;
 pub mod fastest;
 pub mod front;
 pub mod norm;

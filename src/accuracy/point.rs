@@ -4,6 +4,7 @@ use super::norm::StateError;
 use super::reading::Reading;
 use super::setting::{Pace, Setting};
 use bryant_runtime::Report;
+use bryant_study::summary::sample::quantile;
 
 /// One setting and its result.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,7 +97,7 @@ impl Own {
 }
 
 impl Timing {
-    /// The timing from times in any order \[s\]; all zero if there are none.
+    /// The timing from times in any order \[s\], at least one.
     pub fn of(times: &[f64]) -> Timing {
         let mut sorted = times.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -107,16 +108,6 @@ impl Timing {
             repetitions: times.len(),
         }
     }
-}
-
-/// The quantile of sorted values, interpolated linearly.
-fn quantile(sorted: &[f64], part: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else {
-        return 0.0;
-    };
-    let place = part * last as f64;
-    let (low, high) = (place.floor() as usize, place.ceil() as usize);
-    sorted[low] + (place - place.floor()) * (sorted[high] - sorted[low])
 }
 
 impl Done {
@@ -288,6 +279,5 @@ pub(crate) mod tests {
         assert_eq!((timing.median, timing.repetitions), (3.0, 5));
         assert!((timing.late - 4.8).abs() < 1e-15);
         assert_eq!(Timing::of(&[2.0]).late, 2.0);
-        assert_eq!(Timing::of(&[]).median, 0.0);
     }
 }

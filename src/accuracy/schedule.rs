@@ -4,7 +4,6 @@
 //! takes the next setting of a series. Series without an error below 100 % so far come first; then the series whose
 //! last point is nearest to the front of accuracy against time; of several, the one with the fewest points. So a study
 //! that ends early has the front, and lacks points far from it.
-//! far from it.
 
 use super::front::Cost;
 use super::plan::Series;

@@ -16,6 +16,7 @@ use crate::accuracy::report::{diagram, front, record};
 use crate::accuracy::setting::{Scheme, time};
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
 use crate::picture::Format;
+use crate::process::command_line;
 use crate::signature::Kind;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
@@ -388,27 +389,10 @@ impl Arguments {
         if let Some(path) = &self.markdown {
             let picture = places.pictures.iter().find(|path| !is_standard(path));
             let picture = picture.map(|picture| link(path, picture));
-            let section = front::section(study, conclusion, picture.as_deref(), &command());
+            let section = front::section(study, conclusion, picture.as_deref(), &command_line());
             results.push((path.clone(), section.into_bytes()));
         }
         Ok(results)
-    }
-}
-
-/// The command of this process.
-fn command() -> String {
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| quoted(&word.to_string_lossy()));
-    let words: Vec<String> = std::iter::once("bryant".to_owned()).chain(words).collect();
-    words.join(" ")
-}
-
-/// A word quoted for a shell.
-fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./,=".contains(c);
-    match word.chars().all(plain) && !word.is_empty() {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
     }
 }
 

@@ -5,8 +5,8 @@ use crate::accuracy::cause::Cause;
 use crate::accuracy::check::{Certainty, FAR, Verdict};
 use crate::accuracy::comparison::PROMISED;
 use crate::accuracy::conclusion::percent;
+use crate::accuracy::difference::Difference;
 use crate::accuracy::setting::{Setting, time};
-use crate::accuracy::target::Difference;
 use bryant_runtime::program::{ErrorKind, Header, RunError};
 use serde_json::{Value, json};
 

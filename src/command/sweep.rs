@@ -10,7 +10,8 @@ use super::run::{TIME_LIMIT, time_limit};
 use super::terminal::Terminal;
 use crate::interrupt;
 use crate::picture::Format;
-use crate::report::study::{About, Judged, quoted};
+use crate::process::command_line;
+use crate::report::study::{About, Judged};
 use crate::signature::Kind;
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
@@ -179,13 +180,12 @@ impl Arguments {
                 count => Err(merge::given_up(count, &[])),
             };
         }
-        let words = std::env::args().skip(1).map(|word| quoted(&word));
         let about = About {
             study: self.study.display().to_string(),
             model: model_path(&file, directory),
             digest: found.model.digest.clone(),
             criteria: criteria(&facts)?,
-            command: format!("bryant {}", words.collect::<Vec<_>>().join(" ")),
+            command: command_line(),
         };
         let how = merge::Finish {
             shards: None,

@@ -1,6 +1,7 @@
 //! A study as one page of HTML: distributions, sensitivities, points of runs that can be selected, and the runs as rows.
 
 use super::{filled, short};
+use crate::process::quoted;
 use bryant_signal::unit;
 use bryant_study::criteria::Shown;
 use bryant_study::distribution::Distribution;
@@ -254,14 +255,5 @@ fn values(plan: &Plan, index: usize, factor: f64) -> String {
             ),
             Distribution::Discrete { values, .. } => list(values),
         },
-    }
-}
-
-/// A word quoted for a command line.
-pub fn quoted(word: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=:%+@,".contains(c);
-    match !word.is_empty() && word.chars().all(plain) {
-        true => word.to_owned(),
-        false => format!("'{}'", word.replace('\'', "'\\''")),
     }
 }

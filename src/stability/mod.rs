@@ -80,9 +80,8 @@ pub fn run(
 mod tests {
     use super::report::text::{summary, text};
     use super::*;
-    use bryant_generator::expression::Function;
     use bryant_generator::model::Model;
-    use bryant_hard::{Group, Run, Scene};
+    use bryant_hard::{Call, Group, Run, Scene};
     use bryant_runtime::program::Job;
 
     struct Nothing;
@@ -92,8 +91,8 @@ mod tests {
             Err(Trouble::System("nothing runs here".into()))
         }
 
-        fn call(&self, _: &Model, _: Function, _: &[f64]) -> f64 {
-            f64::NAN
+        fn functions(&self, _: &Model) -> Box<Call> {
+            Box::new(|_, _| f64::NAN)
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::estimates::engine_of;
 use crate::share::share;
-use bryant::accuracy::target::Difference;
+use bryant::accuracy::difference::Difference;
 use bryant::{bundled, simulation};
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Method, Tolerances};

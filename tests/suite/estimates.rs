@@ -1,7 +1,8 @@
 //! The error that a run estimates for itself, against the true error, in a thousand random scenes.
 
 use crate::share::share;
-use bryant::accuracy::target::{self, Difference};
+use bryant::accuracy::difference::Difference;
+use bryant::accuracy::target;
 use bryant::build_on_demand::UserForces;
 use bryant::equations::{self, Engine};
 use bryant::{bundled, simulation};

@@ -9,7 +9,7 @@ use super::scene::Shown;
 use super::{Arguments, comparison};
 use crate::balance;
 use crate::picture::Instant;
-use crate::report::study::quoted;
+use crate::process::command_line;
 use crate::report::{self, Curve, curves, page, plots, short};
 use crate::simulation::Recording;
 use crate::table::Table;
@@ -97,7 +97,7 @@ pub fn html(
         "title": title,
         "version": env!("CARGO_PKG_VERSION"),
         "digest": recording.header.digest,
-        "command": command(arguments),
+        "command": command_line(),
         "times": seconds(recording).into_iter().map(short).collect::<Vec<_>>(),
         "columns": columns,
         "plots": plots::json(model, &units, &sizes),
@@ -167,14 +167,4 @@ fn told(responses: &Value) -> Value {
         })
     });
     each.collect()
-}
-
-/// The command line that made this page.
-fn command(arguments: &Arguments) -> String {
-    let words = std::env::args().skip(1).map(|word| quoted(&word));
-    let words: Vec<String> = words.collect();
-    match words.is_empty() {
-        true => format!("bryant run {}", arguments.model),
-        false => format!("bryant {}", words.join(" ")),
-    }
 }
