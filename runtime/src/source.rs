@@ -133,6 +133,7 @@ files! {
     "section.rs",
     "simulate/balance.rs",
     "simulate/diagnostic.rs",
+    "simulate/driven.rs",
     "simulate/event.rs",
     "simulate/excursion.rs",
     "simulate/mod.rs",

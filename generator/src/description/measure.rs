@@ -1,7 +1,7 @@
 //! What a number is measured in: the physical quantities that keys expect, as values and as types. A key is declared
 //! with the type, from which reading, the reference page and the schema follow.
 
-use super::unit::Dimension;
+use bryant_table::unit::Dimension;
 
 /// The physical quantity that a key expects.
 #[derive(Clone, Copy, Debug)]

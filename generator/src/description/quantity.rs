@@ -2,7 +2,7 @@
 
 use super::measure::Unit;
 use super::place::At;
-use super::schema::{Schema, any_of, typed};
+use super::schema::{QUANTITY, Schema, any_of, typed};
 use super::shape::{Misfit, Problems, Shape, check_record, misfit, record};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -66,7 +66,7 @@ record! {
 
 impl Shape for Quantity {
     fn schema(to: &mut Schema) -> Value {
-        to.define("a quantity", |to| {
+        to.define(QUANTITY, |to| {
             any_of([typed("number"), typed("string"), Param::schema(to)])
         })
     }

@@ -2,9 +2,8 @@
 //! what the shapes of values say; what numbers and names mean together is known only to reading.
 
 use super::language::Language;
-use super::quantity::Quantity;
-use super::shape::{Key, Record, Shape};
-use super::unit;
+use super::shape::{Key, Record};
+use bryant_table::unit;
 use serde_yaml::{Mapping, Value};
 use std::collections::BTreeMap;
 
@@ -55,6 +54,15 @@ pub fn mapping_of(value: Value) -> Value {
     object([("type", "object".into()), ("additionalProperties", value)])
 }
 
+/// The definition of what stands for a number.
+pub const QUANTITY: &str = "a quantity";
+
+/// A reference to the definition with this name.
+fn reference(name: &str) -> Value {
+    let path = format!("#/definitions/{}", name.replace(' ', "%20"));
+    object([("$ref", path.into())])
+}
+
 /// A value with words for its reader.
 fn described(value: Value, description: String) -> Value {
     let mut entries = match value {
@@ -82,8 +90,7 @@ impl Schema {
             let written = written(self);
             self.definitions.insert(name.to_owned(), written);
         }
-        let path = format!("#/definitions/{}", name.replace(' ', "%20"));
-        object([("$ref", path.into())])
+        reference(name)
     }
 
     /// A reference to a record.
@@ -96,7 +103,7 @@ impl Schema {
         self.define(title, |to| {
             let property = |key: &Key| {
                 let value = (key.schema)(to);
-                let example = key.example().filter(|_| value == Quantity::schema(to));
+                let example = key.example().filter(|_| value == reference(QUANTITY));
                 let mut value = described(value, key.sentence());
                 if let (Value::Mapping(entries), Some(example)) = (&mut value, example) {
                     entries.insert("examples".into(), Value::Sequence(vec![example.into()]));

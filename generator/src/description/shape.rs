@@ -12,7 +12,6 @@ use super::schema::{Schema, list_of, mapping_of, typed};
 use super::slip;
 use super::tree::{Entry, Kind, Span};
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
-pub use crate::{record, words};
 pub use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
@@ -281,6 +280,7 @@ macro_rules! record {
         }
     };
 }
+pub use record;
 
 /// Declares a set of words, of which one may be written: an enumeration, or the words of one that there is.
 #[macro_export]
@@ -316,9 +316,10 @@ macro_rules! words {
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum $name { $( $(#[$word_meta])* $word, )* }
 
-        $crate::words! { impl $name { $( $word = $text, )* } }
+        $crate::description::shape::words! { impl $name { $( $word = $text, )* } }
     };
 }
+pub use words;
 
 /// The message that a value is not what is needed.
 pub fn misfit(value: &Value, needed: &str) -> Misfit {

@@ -135,9 +135,10 @@ impl Model {
         }
     }
 
-    /// Drops parameters on which nothing depends; the others keep their order.
+    /// Drops parameters on which nothing depends, but no inputs, which a program sets in their order; the others keep
+    /// their order.
     fn keep_used_parameters(&mut self) {
-        let mut used = vec![false; self.parameters.len()];
+        let mut used: Vec<bool> = self.parameters.iter().map(|p| p.input).collect();
         for number in self.numbers_mut() {
             number.for_each_parameter(&mut |index| used[index] = true);
         }
