@@ -7,7 +7,7 @@ use bryant_generator::model::{Curve, Extrapolate, Interpolate, Model};
 use bryant_runtime::Real;
 use bryant_runtime::curve as runtime;
 use bryant_runtime::force::approach::{plane, space};
-use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
+use bryant_runtime::force::{ellipsoid, power, switch};
 
 /// The functions of a model that are not algebra, for plain numbers; a user function returns NaN.
 pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + '_ {
@@ -30,10 +30,6 @@ pub fn functions_with<'a>(
         Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
         Function::CurveBreakpoints(index) => curve(index).breakpoint_indicator(a[0]),
         Function::CurveStop(index) => stop(curve(index), a[0], a[1]),
-        Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
-        Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
-        Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
-        Function::BeltTension => belt::tension(a[0], a[1], a[2]),
         Function::Power => power::power(a[0], a[1]),
         Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
         Function::User(call) => users.map_or(f64::NAN, |users| user(users, call, a)),
