@@ -6,7 +6,7 @@ use bryant_generator::expression::{ApproachCall, Function, UserCall};
 use bryant_generator::program::Curve;
 use bryant_runtime::curve::Table;
 use bryant_runtime::force::approach::{plane, space};
-use bryant_runtime::force::{belt, contact, ellipsoid, friction, power, switch};
+use bryant_runtime::force::{ellipsoid, power, switch};
 use bryant_runtime::{Real, Task};
 use std::sync::Arc;
 
@@ -67,10 +67,6 @@ impl Library {
             Function::CurveDoubleIntegral(index) => curve(index).double_integral(a[0]),
             Function::CurveBreakpoints(index) => curve(index).breakpoint_indicator(a[0]),
             Function::CurveStop(index) => curve(index).stop(a[0], a[1]),
-            Function::Coulomb => friction::coulomb(a[0], a[1], a[2]),
-            Function::CoulombScale => friction::coulomb_scale(a[0], a[1], a[2]),
-            Function::ContactNormalForce => contact::normal_force(a[0], a[1], a[2]),
-            Function::BeltTension => belt::tension(a[0], a[1], a[2]),
             Function::Power => power::power(a[0], a[1]),
             Function::Choose => switch::choose(a[0], a[1], a[2], a[3]),
             Function::User(UserCall { force, .. }) => {

@@ -80,15 +80,7 @@ fn arguments(callee: Callee, random: &mut Random) -> Vec<f64> {
 }
 
 fn functions() -> Vec<Callee> {
-    let mut functions = vec![
-        Function::Coulomb,
-        Function::CoulombScale,
-        Function::ContactNormalForce,
-        Function::BeltTension,
-        Function::Choose,
-        Function::Power,
-        Function::Support(0),
-    ];
+    let mut functions = vec![Function::Choose, Function::Power, Function::Support(0)];
     for curve in 0..curves().len() as u32 {
         functions.extend([
             Function::Curve(curve),

@@ -6,7 +6,7 @@ use bryant_generator::program::{Curve, Input, List, Operation};
 use bryant_generator::target::machine::Callee;
 use bryant_runtime::Real;
 use bryant_runtime::curve::Table;
-use bryant_runtime::force::{belt, contact, friction, power, switch};
+use bryant_runtime::force::{power, switch};
 
 /// The inputs of lists, by regions.
 pub struct Given<T> {
@@ -104,14 +104,6 @@ fn table(index: u32) -> Table {
 pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
     let a = arguments;
     match callee {
-        Callee::Function(Function::Coulomb) => vec![friction::coulomb(a[0], a[1], a[2])],
-        Callee::Function(Function::CoulombScale) => {
-            vec![friction::coulomb_scale(a[0], a[1], a[2])]
-        }
-        Callee::Function(Function::ContactNormalForce) => {
-            vec![contact::normal_force(a[0], a[1], a[2])]
-        }
-        Callee::Function(Function::BeltTension) => vec![belt::tension(a[0], a[1], a[2])],
         Callee::Function(Function::Power) => vec![power::power(a[0], a[1])],
         Callee::Function(Function::Choose) => vec![switch::choose(a[0], a[1], a[2], a[3])],
         Callee::Function(Function::Curve(index)) => vec![table(index).value(a[0])],

@@ -141,11 +141,7 @@ fn call(random: &mut Random, list: &mut List, mix: Mix) -> Operation {
         4..8 => Function::Curve(curve),
         8..10 => Function::CurveSlope(curve),
         10 => Function::CurveBreakpoints(curve),
-        11 => Function::Coulomb,
-        12 => Function::CoulombScale,
-        13 => Function::ContactNormalForce,
-        14 => Function::BeltTension,
-        15..17 => Function::Choose,
+        11..17 => Function::Choose,
         17 => Function::Power,
         18 => Function::Approach(ApproachCall {
             planar: random.below(2) == 0,

@@ -41,14 +41,6 @@ pub enum Function {
     /// Stop of a motion, as a function of velocity and factor: the first argument above 0 at which velocity + factor ·
     /// ∫ of the curve from 0 reaches 0, or 0 if there is none.
     CurveStop(u32),
-    /// `force::friction::coulomb(limit, speed, tolerance)`
-    Coulomb,
-    /// `force::friction::coulomb_scale(limit, speed², tolerance)`
-    CoulombScale,
-    /// `force::contact::normal_force(penetration, elastic, viscous)`
-    ContactNormalForce,
-    /// `force::belt::tension(elongation, elastic, viscous)`
-    BeltTension,
     /// `force::power::power(base, exponent)`, the base not negative
     Power,
     /// `force::switch::choose(a, b, then, otherwise)`: `then` if a < b, else `otherwise`
@@ -128,10 +120,6 @@ impl Function {
             | Function::CurveDoubleIntegral(_)
             | Function::CurveBreakpoints(_) => 1,
             Function::CurveStop(_) | Function::Power => 2,
-            Function::Coulomb
-            | Function::CoulombScale
-            | Function::ContactNormalForce
-            | Function::BeltTension => 3,
             Function::Choose | Function::Support(_) => 4,
             Function::Approach(call) => call.arity(),
             Function::User(call) => call.arguments.into(),
@@ -161,10 +149,6 @@ impl Function {
             | Function::CurveDoubleIntegral(_)
             | Function::CurveBreakpoints(_)
             | Function::CurveStop(_)
-            | Function::Coulomb
-            | Function::CoulombScale
-            | Function::ContactNormalForce
-            | Function::BeltTension
             | Function::Choose
             | Function::Power => None,
             Function::User(call) => Some((call.part.into(), call.parts.into())),

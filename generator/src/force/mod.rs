@@ -2,6 +2,7 @@
 //! the elements that it touches, has states and events, and leaves its [`Measures`] for the outputs. The laws themselves
 //! are in [`law`](crate::law); no file of this folder names one.
 
+pub(crate) mod branches;
 pub mod events;
 pub(crate) mod fade;
 pub(crate) mod hysteresis;

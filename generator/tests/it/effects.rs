@@ -242,7 +242,7 @@ fn accelerations(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<(String, f6
     names.zip(values).collect()
 }
 
-/// Laws with the properties that matter here: no force without a coefficient, and friction against the motion, in the plane as in space.
+/// Laws with the property that matters here: no force without a coefficient.
 fn law(model: &Model, function: Function, a: &[f64]) -> f64 {
     let slope = |curve: u32, x: f64| {
         let points = &model.curves[curve as usize].points;
@@ -251,9 +251,8 @@ fn law(model: &Model, function: Function, a: &[f64]) -> f64 {
     };
     match function {
         Function::Curve(curve) => slope(curve, a[0]),
-        Function::Coulomb => -a[0] * a[1] / (a[1].abs() + a[2]),
-        Function::CoulombScale => a[0] / (a[1].sqrt() + a[2]),
-        Function::ContactNormalForce | Function::BeltTension => a[0].exp() + a[1] + a[2],
+        Function::Choose if a[0] < a[1] => a[2],
+        Function::Choose => a[3],
         _ => 0.5 * a[0],
     }
 }

@@ -199,7 +199,7 @@ mod tests {
         let graph = Graph::new();
         let [x, y] = [0, 1].map(|i| graph.symbol(Symbol::Coordinate(i)));
         let _dead = (x / y).sqrt();
-        let call = graph.call(Function::Coulomb, &[x, x + y, y]);
+        let call = graph.call(Function::Power, &[x, x + y]);
         let value = (x - y).cos().atan2(call.max(x));
         let copy = rebuild(&graph, &[value.id(), x.id()]);
         assert_eq!(

@@ -93,11 +93,11 @@ mod tests {
         };
         let called = graph.call(Function::Curve(3), &[x + y]);
         let unchanged = (x * y).sqrt();
-        let value = graph.call(Function::Coulomb, &[called, unchanged, x]) - unchanged;
+        let value = graph.call(Function::Power, &[called, unchanged]) - unchanged;
         let mut recall = Recall::new(&graph, slope);
         let new = recall.expression(value);
         let called = graph.call(Function::CurveSlope(3), &[x + y]);
-        let expected = graph.call(Function::Coulomb, &[called, unchanged, x]) - unchanged;
+        let expected = graph.call(Function::Power, &[called, unchanged]) - unchanged;
         assert_eq!(new.id(), expected.id());
         assert_eq!(recall.expression(unchanged).id(), unchanged.id());
         // what was made of a part before is found again, also under a new node

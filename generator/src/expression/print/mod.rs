@@ -52,7 +52,7 @@ pub fn symbol_name(symbol: Symbol) -> String {
     }
 }
 
-/// `curve1`, `curve1_slope`, `belt_tension` …
+/// `curve1`, `curve1_slope`, `choose` …
 pub fn function_name(function: Function) -> String {
     match function {
         Function::Curve(i) => format!("curve{}", i + 1),
@@ -63,10 +63,6 @@ pub fn function_name(function: Function) -> String {
         Function::CurveDoubleIntegral(i) => format!("curve{}_double_integral", i + 1),
         Function::CurveBreakpoints(i) => format!("curve{}_breakpoint_indicator", i + 1),
         Function::CurveStop(i) => format!("curve{}_stop", i + 1),
-        Function::Coulomb => "coulomb".to_string(),
-        Function::CoulombScale => "coulomb_scale".to_string(),
-        Function::ContactNormalForce => "contact_force".to_string(),
-        Function::BeltTension => "belt_tension".to_string(),
         Function::Choose => "choose".to_string(),
         Function::Power => "power".to_string(),
         Function::User(call) => format!("user{}_{}", call.force + 1, call.part + 1),

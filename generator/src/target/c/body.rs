@@ -188,9 +188,6 @@ impl Writer<'_> {
             Function::CurveDoubleIntegral(curve) => ("curve_double_integral", Some(curve)),
             Function::CurveBreakpoints(curve) => ("curve_breakpoint_indicator", Some(curve)),
             Function::CurveStop(curve) => ("curve_stop", Some(curve)),
-            Function::Coulomb => ("coulomb", None),
-            Function::CoulombScale => ("coulomb_scale", None),
-            Function::ContactNormalForce | Function::BeltTension => ("normal_force", None),
             Function::Choose => ("choose", None),
             Function::Power => ("power", None),
             Function::Support(_) | Function::Approach(_) | Function::User(_) => {

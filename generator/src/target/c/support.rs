@@ -29,9 +29,6 @@ const PARTS: &[Part] = parts! {
     "minimum";
     "choose";
     "power" ["horner"];
-    "normal_force";
-    "coulomb";
-    "coulomb_scale";
     "support" ["maximum" "power"];
     "approach_space" ["multiply_add"];
     "approach_plane" ["multiply_add"];

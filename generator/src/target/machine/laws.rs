@@ -1,4 +1,4 @@
-//! Force laws and piecewise linear curves, written out as steps in place of calls.
+//! Choices and piecewise linear curves, written out as steps in place of calls.
 //!
 //! The steps follow the runtime (`runtime/src/force`, `runtime/src/curve/{lines,breakpoint_indicator}.rs`) operation by operation, so they give the same bits. A
 //! call stores all values that are in registers and loads them again, which takes longer than most laws.
@@ -16,11 +16,6 @@ impl Lowering<'_> {
     /// The result of a function as steps; `None` if the function must be called.
     pub fn law(&mut self, function: Function, a: &[Term]) -> Option<Term> {
         match function {
-            Function::Coulomb => Some(self.coulomb(a[0], a[1], a[2])),
-            Function::CoulombScale => Some(self.coulomb_scale(a[0], a[1], a[2])),
-            Function::ContactNormalForce | Function::BeltTension => {
-                Some(self.normal_force(a[0], a[1], a[2]))
-            }
             Function::Choose => Some(self.choose(a[0], a[1], a[2], a[3])),
             Function::Curve(index) => Some(self.ordinate(self.lines(index)?, a[0])),
             Function::CurveSlope(index) => Some(self.slope(self.lines(index)?, a[0])),
@@ -31,37 +26,27 @@ impl Lowering<'_> {
         }
     }
 
-    /// −(limit · clamp(speed/tolerance, −1, 1))
-    fn coulomb(&mut self, limit: Term, speed: Term, tolerance: Term) -> Term {
-        let one = self.number(1.0);
-        let share = self.quotient(speed, tolerance);
-        let share = self.larger(share, one.negated());
-        let share = self.smaller(share, one);
-        self.product(limit, share).negated()
-    }
-
-    /// limit/√max(speed², tolerance²)
-    fn coulomb_scale(&mut self, limit: Term, squared: Term, tolerance: Term) -> Term {
-        let least = self.product(tolerance, tolerance);
-        let squared = self.larger(squared, least);
-        let speed = self.root(squared);
-        self.quotient(limit, speed)
-    }
-
-    /// max(0, elastic + viscous) if the penetration is positive, otherwise 0.
-    fn normal_force(&mut self, penetration: Term, elastic: Term, viscous: Term) -> Term {
-        let zero = self.number(0.0);
-        let force = self.sum(elastic, viscous);
-        let force = self.larger(force, zero);
-        let apart = self.taint(penetration);
-        self.select(zero, penetration, force, apart)
-    }
-
     /// `then` where a < b, `otherwise` elsewhere. NaN where the comparison fails because a or b is not finite.
     fn choose(&mut self, a: Term, b: Term, then: Term, otherwise: Term) -> Term {
-        let (of_a, of_b) = (self.taint(a), self.taint(b));
-        let of_both = self.sum(of_a, of_b);
-        let otherwise = self.sum(otherwise, of_both);
+        // What the runtime adds to `otherwise` is +0 or NaN. To add it to a constant +0, or the +0 of a constant to it, changes
+        // no bit. A constant that is too large for single precision becomes infinite there.
+        let [of_a, of_b, given] =
+            [a, b, otherwise].map(|term| self.numbers.constant_of(term.value));
+        let most = f64::from(f32::MAX);
+        let finite = |number: Option<f64>| number.is_some_and(|number| number.abs() <= most);
+        let of_both = match (finite(of_a), finite(of_b)) {
+            (true, _) => self.taint(b),
+            (_, true) => self.taint(a),
+            _ => {
+                let (of_a, of_b) = (self.taint(a), self.taint(b));
+                self.sum(of_a, of_b)
+            }
+        };
+        let is_zero = given.is_some_and(|number| number.to_bits() == 0);
+        let otherwise = match is_zero {
+            true => of_both,
+            false => self.sum(otherwise, of_both),
+        };
         self.select(a, b, then, otherwise)
     }
 

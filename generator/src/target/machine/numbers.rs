@@ -83,11 +83,16 @@ impl Numbers {
     }
 
     fn is_negative_zero(&self, signed: Signed) -> bool {
+        self.constant_of(signed)
+            .is_some_and(|number| number == 0.0 && number.is_sign_negative())
+    }
+
+    /// The number that a value is, if it is a constant.
+    pub fn constant_of(&self, signed: Signed) -> Option<f64> {
         match self.steps.origins[signed.value as usize] {
-            Origin::Constant(number) => {
-                number == 0.0 && number.is_sign_negative() != signed.negative
-            }
-            _ => false,
+            Origin::Constant(number) if signed.negative => Some(-number),
+            Origin::Constant(number) => Some(number),
+            _ => None,
         }
     }
 

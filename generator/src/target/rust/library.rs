@@ -71,10 +71,6 @@ impl Library {
             Function::CurveDoubleIntegral(i) => method(i, "double_integral"),
             Function::CurveBreakpoints(i) => method(i, "breakpoint_indicator"),
             Function::CurveStop(i) => method(i, "stop"),
-            Function::Coulomb => Callee::Function("force::friction::coulomb"),
-            Function::CoulombScale => Callee::Function("force::friction::coulomb_scale"),
-            Function::ContactNormalForce => Callee::Function("force::contact::normal_force"),
-            Function::BeltTension => Callee::Function("force::belt::tension"),
             Function::Choose => Callee::Function("force::switch::choose"),
             Function::Power => Callee::Function("force::power::power"),
             Function::User(call) => Callee::Adapter(self.users.path(call.force)),
@@ -160,11 +156,7 @@ pub(crate) fn curve_of(function: Function) -> Option<usize> {
         | Function::CurveDoubleIntegral(i)
         | Function::CurveBreakpoints(i)
         | Function::CurveStop(i) => Some(i as usize),
-        Function::Coulomb
-        | Function::CoulombScale
-        | Function::ContactNormalForce
-        | Function::BeltTension
-        | Function::Choose
+        Function::Choose
         | Function::Power
         | Function::User(_)
         | Function::Support(_)

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::rc::Rc;
 use syn::{Expr, ImplItem, ImplItemFn, Item, Lit, Pat, Stmt, UnOp};
 
-/// The functions that the text calls outside of itself: "WEBBING.value", "force::belt::tension".
+/// The functions that the text calls outside of itself: "WEBBING.value", "force::power::power".
 pub type Library<'a> = &'a dyn Fn(&str, &[f64]) -> f64;
 
 /// A value of the interpreted text.

@@ -30,7 +30,8 @@ use super::check::must_have_length;
 use super::outputs::{BeltMeasures, SegmentMeasures};
 use crate::expression::choose;
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, Graph};
+use crate::expression::{Expr, Graph};
+use crate::force::branches::one_sided;
 use crate::force::fade::faded;
 use crate::force::hysteresis;
 use crate::force::onset::{FAR, Onset, absolute, size};
@@ -292,8 +293,7 @@ fn segment<'g>(
 impl<'g> Segment<'g> {
     /// Tension with a viscous force, valid once a retractor has locked \[N\].
     fn tension(&self, law: Law<'_, 'g>, viscous: Expr<'g>) -> Expr<'g> {
-        let arguments = [self.elongation, self.elastic, viscous];
-        let tension = law.graph.call(Function::BeltTension, &arguments);
+        let tension = one_sided(self.elongation, self.elastic, viscous);
         let limit = self.webbing.limiter.map(|limiter| limiter.force);
         law.gate
             .of(limit.map_or(tension, |limit| tension.min(limit)))

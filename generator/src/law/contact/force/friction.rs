@@ -18,7 +18,8 @@
 use super::{AppliedForces, Product, Touch};
 use crate::expression::choose;
 use crate::expression::vector::Vec3;
-use crate::expression::{Expr, Function, sum};
+use crate::expression::{Expr, sum};
+use crate::force::branches::{coulomb, coulomb_scale, share};
 use crate::model::{Dimension, Friction, Number};
 use crate::motion::numbers::number;
 
@@ -76,12 +77,11 @@ fn regularised<'g>(
     tolerance: Expr<'g>,
     touch: &Touch<'g>,
 ) -> Rubbing<'g> {
-    let graph = limit.graph();
     match dimension {
         Dimension::Plane => {
             let tangent = touch.planar_tangent();
             let slip = tangent.dot(touch.velocity);
-            let magnitude = graph.call(Function::Coulomb, &[limit, slip, tolerance]);
+            let magnitude = coulomb(limit, slip, tolerance);
             applied.kink(slides(owner), move || slip.max(-slip) - tolerance);
             applied.work(work(owner), Product::Scalars(magnitude, slip));
             Rubbing {
@@ -92,7 +92,7 @@ fn regularised<'g>(
         Dimension::Space => {
             let slip = touch.slip();
             let squared = slip.squared();
-            let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
+            let scale = coulomb_scale(limit, squared, tolerance);
             applied.kink(slides(owner), move || squared - tolerance.squared());
             applied.work(work(owner), Product::Scalars(-scale, squared));
             Rubbing {
@@ -145,7 +145,7 @@ fn sticking<'g>(
     // with the operands in this order, a NaN stays a NaN
     let (share, magnitude): (Vec<Expr<'g>>, _) = match trial[..] {
         [trial] => {
-            let share = trial.max(-one).min(one);
+            let share = share(trial);
             applied.kink(slides(owner), move || trial.max(-trial) - one);
             (vec![share], -(limit * share))
         }

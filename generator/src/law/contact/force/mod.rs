@@ -4,7 +4,7 @@
 //! ([support]); the penetration is δ = h − n·(centre − plane). v is the velocity of the ellipsoid's material at p
 //! relative to that of the plane at p. Then
 //!
-//! δ̇ = −n·v,   N = normal_force(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n + friction
+//! δ̇ = −n·v,   N = one_sided(δ, elastic(δ), damping · min(δ/depth, 1) · δ̇),   F = N n + friction
 //!
 //! F acts on the ellipsoid at p, −F on the plane's body.
 
@@ -17,6 +17,7 @@ use super::outputs::ContactMeasures;
 use crate::expression::choose;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Function, Graph, sum};
+use crate::force::branches::one_sided;
 use crate::force::fade::faded;
 use crate::force::hysteresis;
 use crate::force::switch::Gate;
@@ -306,10 +307,7 @@ fn pressed<'g>(
     let viscous = contact.damping.as_ref().map_or(zero, |c| {
         number(graph, c) * faded(graph, penetration, contact.damping_depth.as_ref()) * approach
     });
-    let force = graph.call(
-        Function::ContactNormalForce,
-        &[penetration, elastic, viscous],
-    );
+    let force = one_sided(penetration, elastic, viscous);
     if contact.damping.is_some() {
         // where damping would pull, the force ends while the bodies still overlap
         applied.kink(format!("{owner}: pushes"), move || {

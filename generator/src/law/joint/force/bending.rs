@@ -24,7 +24,8 @@ use super::{Rotation, elastic_torque, stop, stop_kinks};
 use crate::equations::NO_BEARING;
 use crate::expression::choose;
 use crate::expression::vector::{Mat3, Vec3};
-use crate::expression::{Expr, Function, Graph};
+use crate::expression::{Expr, Graph};
+use crate::force::branches::coulomb_scale;
 use crate::force::switch::Gate;
 use crate::force::{AppliedForces, Product};
 use crate::law::joint::JointMeasures;
@@ -158,7 +159,7 @@ impl<'g> Bent<'g> {
                 number(graph, &friction.limit),
                 number(graph, &friction.tolerance),
             );
-            let scale = graph.call(Function::CoulombScale, &[limit, squared, tolerance]);
+            let scale = coulomb_scale(limit, squared, tolerance);
             against("friction", scale);
             applied.kink(format!("{rotation}: slides"), move || {
                 squared - tolerance.squared()

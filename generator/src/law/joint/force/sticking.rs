@@ -12,8 +12,9 @@
 //! always. While the force waits for a switch, the bristle straightens.
 
 use super::Rotation;
-use crate::expression::{Expr, Function};
+use crate::expression::Expr;
 use crate::force::AppliedForces;
+use crate::force::branches::{coulomb, share};
 use crate::force::switch::Gate;
 use crate::model::{Bristle, Friction};
 use crate::motion::numbers::number;
@@ -32,15 +33,14 @@ pub fn friction<'g>(
     let slides = format!("{owner}: slides");
     let Some(Bristle { displacement }) = bristle else {
         applied.kink(slides, move || rate.max(-rate) - tolerance);
-        return graph.call(Function::Coulomb, &[limit, rate, tolerance]);
+        return coulomb(limit, rate, tolerance);
     };
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let deflection = number(graph, displacement);
     let (index, z) = applied.auxiliary(format!("{owner}: bristle"), unit, zero);
     let trial = z / deflection + rate / tolerance;
     applied.kink(slides, move || trial.max(-trial) - one);
-    // with the operands in this order, a NaN stays a NaN
-    let share = trial.max(-one).min(one);
+    let share = share(trial);
     applied.states.auxiliaries[index].next = tolerance * (gate.of(share) - z / deflection);
     -(limit * share)
 }
