@@ -10,15 +10,15 @@ use bryant_generator::program::{List, Method, Operation, Value};
 use bryant_runtime::Task as _;
 use std::collections::HashMap;
 
-/// Appends a call of Coulomb's law with any values, and a product with its result.
+/// Appends a choice between any values, and a product with its result.
 fn append_call(list: &mut List, random: &mut Random) {
     let first = list.arguments.len() as u32;
     let values = list.values();
     let mut any = || Value(random.below(values) as u32);
-    list.arguments.extend([any(), any(), any()]);
+    list.arguments.extend([(); 4].map(|()| any()));
     let (factor, result) = (any(), Value(values as u32));
     list.operations.push(Operation::Call {
-        function: Function::Coulomb,
+        function: Function::Choose,
         first,
     });
     list.operations.push(Operation::Mul(result, factor));
