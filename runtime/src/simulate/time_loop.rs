@@ -322,8 +322,14 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
 
     /// If inputs may change: the next step ends at this time at the latest, where they do.
     pub fn control_at(&mut self, t: f64) {
-        if self.driven.is_some() {
-            self.control = t;
+        if self.driven.is_none() {
+            return;
+        }
+        self.control = t;
+        // the first step is ready, and knows of no change yet
+        if self.opened && self.landed.is_none() {
+            self.breakpoint = self.breakpoint_after(self.report.t);
+            self.f.latest = self.breakpoint.next_down();
         }
     }
 
