@@ -70,7 +70,6 @@ fn driven(
         })?;
         outputs = run.advance_to(t)?.outputs.to_vec();
     }
-    drop(run);
     let doubts: Vec<String> = watch.diagnostics().map(|d| format!("{d:?}")).collect();
     assert!(doubts.is_empty(), "{doubts:?}");
     Ok(outputs)

@@ -119,7 +119,7 @@ pub struct OverTime<Y>(Function, PhantomData<Y>);
 impl<X: Unit, Y: Unit> FunctionOf<X, Y> {
     /// Each unit of the abscissa with that of the ordinate.
     fn units() -> String {
-        let pure = |unit| if unit == "" { "1" } else { unit };
+        let pure = |unit: &'static str| if unit.is_empty() { "1" } else { unit };
         let pairs = X::UNIT.split(", ").zip(Y::UNIT.split(", "));
         let pairs = pairs.map(|(x, y)| format!("{} → {}", pure(x), pure(y)));
         pairs.collect::<Vec<_>>().join(", ")
