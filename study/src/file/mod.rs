@@ -19,7 +19,7 @@ use bryant_generator::description::tree::{Node, Source};
 use bryant_generator::description::what;
 use bryant_generator::{Diagnostic, Diagnostics};
 pub use keys::Keys;
-use reader::{Reader, optional, text};
+use reader::{Reader, optional};
 pub(crate) use responses::sampling;
 use std::path::Path;
 
@@ -69,7 +69,7 @@ impl StudyFile {
     /// rows itself.
     pub fn rows_from(&self) -> Option<String> {
         let rows = optional(self.source.at(), "rows")?;
-        text(optional(rows, "csv")?).map(str::to_owned)
+        optional(rows, "csv")?.node.text().map(str::to_owned)
     }
 
     /// The responses of the study and the time between their samples \[s\], for one run of a model with this duration

@@ -64,6 +64,16 @@ impl Reader {
         found
     }
 
+    /// A text, not empty.
+    pub fn text<'a>(&self, at: At<'a>) -> Option<&'a str> {
+        let text = at.node.text()?;
+        if text.trim().is_empty() {
+            self.add(at.problem("here stands an empty text", "write a name"));
+            return None;
+        }
+        Some(text)
+    }
+
     /// A quantity in SI units with the dimension of `unit`; a bare number is in `unit`.
     pub fn quantity(&self, at: At<'_>, unit: &str) -> Option<f64> {
         let Kind::Scalar { text, .. } = &at.node.kind else {
@@ -150,7 +160,7 @@ impl Reader {
         words: &[&'w str],
         meant: impl Fn(&str) -> Option<&'static str>,
     ) -> Option<&'w str> {
-        let text = text(at)?;
+        let text = self.text(at)?;
         let found = words.iter().find(|word| **word == text).copied();
         if found.is_none() {
             let message = format!("there is no {what} {}", quoted(text));
@@ -183,14 +193,9 @@ pub fn items(at: At<'_>) -> Vec<At<'_>> {
     }
 }
 
-/// A text.
-pub fn text(at: At<'_>) -> Option<&str> {
-    at.node.text().filter(|text| !text.trim().is_empty())
-}
-
 /// One of the words of a key.
 pub fn word<W: Shape>(at: At<'_>) -> Option<W> {
-    W::read(&text(at)?.into()).ok()
+    W::read(&at.node.text()?.into()).ok()
 }
 
 /// The value of a key, `None` if the key is missing.

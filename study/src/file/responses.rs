@@ -1,6 +1,6 @@
 //! Reads `responses`: the numbers that are computed from each run.
 
-use super::reader::{Reader, items, optional, text};
+use super::reader::{Reader, items, optional};
 use crate::criteria;
 use crate::facts::ModelFacts;
 use crate::quantity::dimension;
@@ -38,7 +38,7 @@ const ALL: &str = "all";
 /// The responses for injury criteria, of a model that names its regulation.
 fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) -> Vec<Response> {
     let place = at.key("criterion");
-    let Some(word) = text(place) else {
+    let Some(word) = reader.text(place) else {
         return Vec::new();
     };
     let found = match (word == ALL, &facts.criteria) {
@@ -76,7 +76,7 @@ fn criteria(reader: &Reader, at: At<'_>, facts: &ModelFacts, run: &RunSettings) 
 
 /// The heading of a column; a problem is added if it is not valid.
 fn heading(reader: &Reader, at: At<'_>) -> Option<String> {
-    let name = text(at)?;
+    let name = reader.text(at)?;
     if name.contains(|c: char| c.is_control() || matches!(c, '\u{2028}' | '\u{2029}')) {
         let message = "a name is a single line, the heading of a column";
         reader.add(at.problem(message, "write it without line breaks and tabs"));
@@ -92,7 +92,7 @@ fn response(
     run: &RunSettings,
 ) -> Option<Response> {
     let output = optional(at, "of").and_then(|at| {
-        let name = text(at)?;
+        let name = reader.text(at)?;
         let found = facts.output(name);
         if found.is_none() {
             let message = format!("the model has no output {}", quoted(name));

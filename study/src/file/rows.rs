@@ -2,7 +2,7 @@
 //! `slack` or `slack [mm]`.
 
 use super::design::{Planned, known, within};
-use super::reader::{self, Reader, entries, items, optional, text};
+use super::reader::{self, Reader, entries, items, optional};
 use crate::facts::{ModelFacts, ParameterFact};
 use crate::quantity::strict;
 use crate::study::{Listed, Plan, Varied};
@@ -35,7 +35,7 @@ pub fn read(
     let (varied, values) = match &at.node.kind {
         Kind::Map(_) => {
             let at = optional(at, "csv")?;
-            let path = text(at)?;
+            let path = reader.text(at)?;
             let table = Table {
                 reader,
                 at,

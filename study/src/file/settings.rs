@@ -1,7 +1,7 @@
 //! Reads `fixed`, `run`, `keep` and `tables`, and checks that no name is used twice.
 
 use super::design::known;
-use super::reader::{Reader, entries, items, optional, text, word};
+use super::reader::{Reader, entries, items, optional, word};
 use crate::facts::{ModelFacts, OutputFact, RunFact};
 use crate::response::Response;
 use crate::study::{
@@ -153,7 +153,7 @@ pub fn keep(reader: &Reader, root: At<'_>, facts: &ModelFacts, rows: Option<u64>
         return keep;
     };
     for at in items(at) {
-        let Some(name) = text(at) else {
+        let Some(name) = reader.text(at) else {
             continue;
         };
         match facts.output(name) {

@@ -556,6 +556,43 @@ fn keys_that_have_no_meaning_are_told() {
 }
 
 #[test]
+fn an_empty_text_is_no_name() {
+    let parameters = "parameters: { friction: { from: 0, to: 1 } }";
+    for (rows, rest) in [
+        (
+            "design: sobol\nruns: 8",
+            "responses: [{ of: \"\", what: peak }]",
+        ),
+        (
+            "design: sobol\nruns: 8",
+            "responses: [{ of: head excursion, what: \" \" }]",
+        ),
+        ("design: sobol\nruns: 8", "responses: [{ criterion: \"\" }]"),
+        (
+            "design: sobol\nruns: 8",
+            "responses: [{ of: head excursion, what: peak, name: \"\" }]",
+        ),
+        (
+            "design: sobol\nruns: 8",
+            "responses: [{ of: head excursion, what: peak, filter: \"\" }]",
+        ),
+        (
+            "design: sobol\nruns: 8",
+            "responses: [{ of: head excursion, what: peak }]\nkeep: { runs: [0], outputs: [\"\"] }",
+        ),
+    ] {
+        let said = problem(resolve(&format!(
+            "model: seat\n{rows}\n{parameters}\n{rest}\n"
+        )));
+        assert!(said.contains("an empty text"), "{rest}: {said}");
+    }
+    let said = problem(resolve(
+        "model: seat\ndesign: list\nrows: { csv: \"\" }\nresponses: [{ of: head excursion, what: peak }]\n",
+    ));
+    assert!(said.contains("an empty text"), "{said}");
+}
+
+#[test]
 fn columns_have_different_names() {
     let text = "model: seat\ndesign: sobol\nruns: 8\nparameters: { friction: { from: 0, to: 1 } }\nresponses:\n";
     for (responses, name) in [
