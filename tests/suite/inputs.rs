@@ -55,7 +55,7 @@ fn driven(
     let mut start = vec![0.0; info.state_length()];
     model.initial_state(&mut start);
     let mut memory = vec![0.0; workspace_length(info, &settings)];
-    let mut parameters = vec![0.0; info.parameters.len()];
+    let mut parameters = vec![0.0; Driven::<f64>::length(info)];
     let model = Driven::new(&mut *model, &mut parameters);
     let mut watch = Watch::new(info, 0.02);
     let watched = Some(&mut watch);
@@ -135,7 +135,7 @@ fn a_threshold_that_falls_fires_its_switch_at_once() {
 fn limits_hold_and_what_is_refused_changes_nothing() {
     let engine = cart("forces: [{ joint: cart/body, motor: push }]\n");
     let mut model = engine.in_double();
-    let mut parameters = [0.0; 2];
+    let mut parameters = [0.0; 4];
     let driven = Driven::new(&mut *model, &mut parameters);
     driven.set_inputs(&[3.0, 1.0]).unwrap();
     for bad in [101.0, -100.5, f64::INFINITY, f64::NAN] {
@@ -152,6 +152,28 @@ fn limits_hold_and_what_is_refused_changes_nothing() {
         };
         assert_eq!(rate(&driven), [0.0, 1.5]);
     }
+}
+
+#[test]
+fn conditions_hold_also_for_inputs() {
+    // an input that stretches a curve must be positive, whatever its limits are
+    let engine = cart(
+        "curves: { pulse: { points: [[0, 0], [1, 10]] } }\n\
+         forces: [{ joint: cart/body, motor: { curve: pulse, stretch: push / 1 N + 1 } }]\n",
+    );
+    let mut model = engine.in_double();
+    let mut parameters = [0.0; 4];
+    let driven = Driven::new(&mut *model, &mut parameters);
+    let rate = || {
+        let mut rate = [0.0; 2];
+        bryant_runtime::Dynamics::derivative(&driven, 0.5, &[0.0, 0.0], &mut rate);
+        rate[1]
+    };
+    driven.set_inputs(&[1.0, 1.0]).unwrap();
+    assert_eq!(rate(), 1.25);
+    let refused = driven.set_inputs(&[-2.0, 1.0]).unwrap_err();
+    assert!(matches!(refused, Refusal::Condition(_)), "{refused:?}");
+    assert_eq!(rate(), 1.25);
 }
 
 #[test]

@@ -8,14 +8,20 @@ use core::cell::{Cell, RefCell};
 /// shared by the run, which reads it, and the controller, which sets inputs.
 pub struct Driven<'m, T: Real> {
     model: RefCell<&'m mut dyn Adjustable<T>>,
-    parameters: RefCell<&'m mut [T]>,
+    /// All parameters, then the inputs before the last change.
+    memory: RefCell<&'m mut [T]>,
     info: &'static Info,
     /// True if an input has changed since the run last looked.
     changed: Cell<bool>,
 }
 
 impl<'m, T: Real> Driven<'m, T> {
-    /// A model at its present parameters. `memory` has one scalar for each of [`Info::parameters`], of any value.
+    /// Number of scalars that [`Driven::new`] needs: one for each parameter, and one more for each input.
+    pub fn length(info: &Info) -> usize {
+        info.parameters.len() + info.inputs().count()
+    }
+
+    /// A model at its present parameters. `memory` has [`Driven::length`] scalars of any value.
     ///
     /// # Panics
     /// With memory of another length.
@@ -23,7 +29,7 @@ impl<'m, T: Real> Driven<'m, T> {
         let info = model.info();
         assert_eq!(
             memory.len(),
-            info.parameters.len(),
+            Self::length(info),
             "memory for the parameters of {}",
             info.name
         );
@@ -34,7 +40,7 @@ impl<'m, T: Real> Driven<'m, T> {
         }
         Driven {
             model: RefCell::new(model),
-            parameters: RefCell::new(memory),
+            memory: RefCell::new(memory),
             info,
             changed: Cell::new(false),
         }
@@ -43,7 +49,8 @@ impl<'m, T: Real> Driven<'m, T> {
     /// Sets all inputs, in the order of [`Info::inputs`] \[SI\].
     ///
     /// # Errors
-    /// A value that is not finite or outside of the limits of its input; nothing is set then.
+    /// A value that is not finite or outside of the limits of its input, or values that break a condition of the model;
+    /// nothing is set then.
     ///
     /// # Panics
     /// With another number of values than there are inputs.
@@ -60,16 +67,25 @@ impl<'m, T: Real> Driven<'m, T> {
                 return Err(Refusal::OutOfLimits(index, value));
             }
         }
-        let parameters = &mut **self.parameters.borrow_mut();
-        let mut differ = false;
-        for (index, value) in self.info.inputs().zip(values) {
-            differ |= parameters[index] != *value;
-            parameters[index] = *value;
+        let memory = &mut **self.memory.borrow_mut();
+        let (parameters, held) = memory.split_at_mut(self.info.parameters.len());
+        let mut inputs = self.info.inputs().zip(values);
+        if inputs.all(|(index, value)| parameters[index] == *value) {
+            return Ok(());
         }
-        if differ {
-            self.model.borrow_mut().set_parameters(parameters);
-            self.changed.set(true);
+        let mut model = self.model.borrow_mut();
+        for ((index, value), held) in self.info.inputs().zip(values).zip(&mut *held) {
+            *held = core::mem::replace(&mut parameters[index], *value);
         }
+        model.set_parameters(parameters);
+        if let Some(condition) = model.violated() {
+            for (index, held) in self.info.inputs().zip(held) {
+                parameters[index] = *held;
+            }
+            model.set_parameters(parameters);
+            return Err(Refusal::Condition(condition));
+        }
+        self.changed.set(true);
         Ok(())
     }
 

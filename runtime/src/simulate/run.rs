@@ -119,7 +119,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
     ///     let mut start = vec![0.0; info.state_length()];
     ///     model.initial_state(&mut start);
     ///     let mut memory = vec![0.0; workspace_length(info, &settings)];
-    ///     let mut parameters = vec![0.0; info.parameters.len()];
+    ///     let mut parameters = vec![0.0; Driven::<f64>::length(info)];
     ///     let model = Driven::new(model, &mut parameters);
     ///     let mut run = Run::driven(&mut memory, &model, &start, &settings, None)?;
     ///     for millisecond in 0..1000 {
