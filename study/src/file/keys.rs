@@ -125,9 +125,9 @@ record! {
         /// length of a run
         duration: Option<In<Time>> = "the model's",
         /// relative error of the responses that is aimed at
-        accuracy: Option<Scalar> = "the model's",
+        accuracy: Option<Scalar> = "0.1 %",
         /// time between the samples that responses are read off
-        sampling: Option<In<Time>> = "as responses and filters need it",
+        sampling: Option<In<Time>> = "20 between two rows of the model's table, more where a filter needs them",
         /// [fixed steps](#fixed-steps) of this length, instead of `accuracy`
         step: Option<In<Time>>,
         /// of fixed steps: `heun`, `rk4`, `merson` or `dopri5`
@@ -146,7 +146,7 @@ record! {
         name: Option<String> = "such as `peak of NAME`",
         /// an output of the model
         of: String,
-        /// which number, [as below](#responses)
+        /// which [number](#responses)
         what: What,
         /// of `value`: the time
         at: Option<In<Time>> = "required for `value`",
@@ -252,7 +252,7 @@ shapes! {
         None => check_record::<Response>(at, problems),
     };
 
-    /// Which number is read off a run. Reading suggests other words.
+    /// The number that is read off a run. Reading suggests other words.
     What |_to| bryant_generator::description::schema::words(&response::NAMES.map(|(name, _)| name)),
         |at, problems| String::check(at, problems);
 
