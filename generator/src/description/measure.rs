@@ -46,7 +46,8 @@ pub trait Measured: Unit {
 }
 
 macro_rules! measured {
-    ($($name:ident $constant:ident = $words:literal $unit:literal [$m:literal $kg:literal $s:literal $rad:literal $kelvin:literal];)*) => {$(
+    ($($name:ident $constant:ident = $words:literal $unit:literal [$m:literal $kg:literal $s:literal $rad:literal $kelvin:literal];)*) => {
+    $(
         #[doc = concat!("\\[", $unit, "\\]")]
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub struct $name;
@@ -64,7 +65,11 @@ macro_rules! measured {
             name: $words,
             dimension: Dimension::new($m, $kg, $s, $rad).kelvin($kelvin),
         };
-    )*};
+    )*
+
+        #[cfg(test)]
+        const ALL: &[(&str, Expected)] = &[$(($unit, $constant)),*];
+    };
 }
 
 measured! {
@@ -139,4 +144,22 @@ dependent! {
     EffortPerRate "N·s/m, N·m·s/rad";
     /// Per relative elongation, or per elongation.
     Webbing "N, or N/m";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ALL;
+    use bryant_table::unit::{Dimension, product};
+
+    #[test]
+    fn the_text_of_a_unit_has_its_dimension() {
+        for (unit, expected) in ALL {
+            let spelled = unit.replace('·', "*").replace('²', "^2");
+            let found = match spelled.as_str() {
+                "" => Dimension::ONE,
+                spelled => product(spelled).expect("a unit").dimension,
+            };
+            assert!(expected.accepts(found), "{unit}: {}", expected.name);
+        }
+    }
 }
