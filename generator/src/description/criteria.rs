@@ -1,12 +1,7 @@
 //! Injury criteria as written: by which regulation, for which dummy, and where what is.
 
-use super::measure::{Acceleration, Effort, Force, Length, Rate, Torque, Unit};
-use super::place::At;
-use super::schema::Schema;
-use super::shape::{Misfit, Problems, Shape, record, words};
-use serde_yaml::Value;
-use std::marker::PhantomData;
-use std::ops::Deref;
+use super::measure::{Acceleration, Effort, Force, Length, Rate, Torque};
+use super::shape::{In, record, words};
 
 words! {
     /// Whose coefficients filters have.
@@ -15,35 +10,6 @@ words! {
         Iso6487 = "iso6487",
         /// SAE J211-1
         SaeJ211 = "sae-j211",
-    }
-}
-
-/// The name of what is measured in `U`.
-#[derive(Clone, Debug)]
-pub struct NameIn<U>(String, PhantomData<U>);
-
-impl<U> Deref for NameIn<U> {
-    type Target = str;
-    fn deref(&self) -> &str {
-        &self.0
-    }
-}
-
-impl<U: Unit> Shape for NameIn<U> {
-    fn unit() -> String {
-        U::UNIT.to_owned()
-    }
-
-    fn schema(to: &mut Schema) -> Value {
-        String::schema(to)
-    }
-
-    fn check(at: At<'_>, problems: &Problems) {
-        String::check(at, problems);
-    }
-
-    fn read(value: &Value) -> Result<Self, Misfit> {
-        Ok(NameIn(String::read(value)?, PhantomData))
     }
 }
 
@@ -63,14 +29,14 @@ macro_rules! places {
                 /// test object and position, the first two characters of the codes, where outputs of several occupants have
                 /// one, `"13"`
                 occupant: Option<String> = "that of the outputs' codes",
-                $( $(#[doc = $meaning])* $place: Option<NameIn<$unit>>, )*
+                $( $(#[doc = $meaning])* $place: Option<In<String, $unit>>, )*
             }
         }
 
         impl Criteria {
             /// Each place that is said, by its key, with what stands there.
             pub fn places(&self) -> Vec<(&'static str, &str)> {
-                let all = [ $( (stringify!($place), self.$place.as_deref()), )* ];
+                let all = [ $( (stringify!($place), self.$place.as_ref().map(|name| name.as_str())), )* ];
                 let said = all.into_iter().filter_map(|(key, text)| Some((key, text?)));
                 said.collect()
             }

@@ -1,14 +1,12 @@
 //! Curves as written, and the places where one is used.
 
-use super::measure::{OfItsUse, OfTheFactor, Pure, Unit};
+use super::measure::{OfItsUse, OfTheFactor, Pure};
 use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of};
-use super::shape::{Misfit, Problems, Record, Shape, check_record, record, words};
+use super::shape::{In, Misfit, Problems, Record, Shape, check_record, record, words};
 use super::tree::{Kind, Node};
 use serde_yaml::Value;
-use std::marker::PhantomData;
-use std::ops::Deref;
 
 record! {
     /// A function through points.
@@ -109,54 +107,10 @@ pub enum Function {
 }
 
 /// A function of `X`, measured in `Y`.
-#[derive(Clone, Debug)]
-pub struct FunctionOf<X, Y>(Function, PhantomData<(X, Y)>);
+pub type FunctionOf<X, Y> = In<Function, (X, Y)>;
 
 /// A number, or a function of the time \[s\], measured in `Y`.
-#[derive(Clone, Debug)]
-pub struct OverTime<Y>(Function, PhantomData<Y>);
-
-impl<X: Unit, Y: Unit> FunctionOf<X, Y> {
-    /// Each unit of the abscissa with that of the ordinate.
-    fn units() -> String {
-        let pure = |unit: &'static str| if unit.is_empty() { "1" } else { unit };
-        let pairs = X::UNIT.split(", ").zip(Y::UNIT.split(", "));
-        let pairs = pairs.map(|(x, y)| format!("{} → {}", pure(x), pure(y)));
-        pairs.collect::<Vec<_>>().join(", ")
-    }
-}
-
-macro_rules! measured {
-    ([$($unit:ident),*] $of:ty, $text:expr) => {
-        impl<$($unit),*> Deref for $of {
-            type Target = Function;
-            fn deref(&self) -> &Function {
-                &self.0
-            }
-        }
-
-        impl<$($unit: Unit),*> Shape for $of {
-            fn unit() -> String {
-                $text
-            }
-
-            fn schema(to: &mut Schema) -> Value {
-                Function::schema(to)
-            }
-
-            fn check(at: At<'_>, problems: &Problems) {
-                Function::check(at, problems);
-            }
-
-            fn read(value: &Value) -> Result<Self, Misfit> {
-                Ok(Self(Function::read(value)?, PhantomData))
-            }
-        }
-    };
-}
-
-measured!([X, Y] FunctionOf<X, Y>, Self::units());
-measured!([Y] OverTime<Y>, Y::UNIT.to_owned());
+pub type OverTime<Y> = In<Function, Y>;
 
 impl Shape for Function {
     fn schema(to: &mut Schema) -> Value {

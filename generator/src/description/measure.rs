@@ -36,7 +36,18 @@ impl Expected {
 /// What a number is measured in, as the reference page writes it.
 pub trait Unit: Clone + std::fmt::Debug + PartialEq + 'static {
     /// The unit; "" where the number has none, or its meaning says it.
-    const UNIT: &'static str;
+    fn unit() -> String;
+}
+
+/// A function of `X`, measured in `Y`: "m → N"; for several pairs, "m → N, rad → N·m".
+impl<X: Unit, Y: Unit> Unit for (X, Y) {
+    fn unit() -> String {
+        let pure = |unit: &str| if unit.is_empty() { "1" } else { unit }.to_owned();
+        let [x, y] = [X::unit(), Y::unit()];
+        let pairs = x.split(", ").zip(y.split(", "));
+        let pairs = pairs.map(|(x, y)| format!("{} → {}", pure(x), pure(y)));
+        pairs.collect::<Vec<_>>().join(", ")
+    }
 }
 
 /// A unit that does not depend on anything else in the text.
@@ -53,7 +64,9 @@ macro_rules! measured {
         pub struct $name;
 
         impl Unit for $name {
-            const UNIT: &'static str = $unit;
+            fn unit() -> String {
+                $unit.to_owned()
+            }
         }
 
         impl Measured for $name {
@@ -110,7 +123,9 @@ macro_rules! dependent {
         pub struct $name;
 
         impl Unit for $name {
-            const UNIT: &'static str = $unit;
+            fn unit() -> String {
+                $unit.to_owned()
+            }
         }
     )*};
 }

@@ -1,49 +1,13 @@
 //! A quantity as written: a number in SI units, a text (`20 deg`, `2 * belt_stiffness`), or `{ param: name }`.
 
-use super::measure::Unit;
 use super::place::At;
 use super::schema::{QUANTITY, Schema, any_of, typed};
-use super::shape::{Misfit, Problems, Shape, check_record, misfit, record};
+use super::shape::{In, Misfit, Problems, Shape, check_record, misfit, record};
 use super::tree::Kind;
 use serde_yaml::Value;
-use std::marker::PhantomData;
-use std::ops::Deref;
 
 /// A quantity that is measured in `U`; `&Number<U>` is a `&Quantity` where the unit does not matter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Number<U>(Quantity, PhantomData<U>);
-
-impl<U> Number<U> {
-    /// The same, measured in something else.
-    pub fn measured_in<V>(&self) -> Number<V> {
-        Number(self.0.clone(), PhantomData)
-    }
-}
-
-impl<U> Deref for Number<U> {
-    type Target = Quantity;
-    fn deref(&self) -> &Quantity {
-        &self.0
-    }
-}
-
-impl<U: Unit> Shape for Number<U> {
-    fn unit() -> String {
-        U::UNIT.to_owned()
-    }
-
-    fn schema(to: &mut Schema) -> Value {
-        Quantity::schema(to)
-    }
-
-    fn check(at: At<'_>, problems: &Problems) {
-        Quantity::check(at, problems);
-    }
-
-    fn read(value: &Value) -> Result<Self, Misfit> {
-        Ok(Number(Quantity::read(value)?, PhantomData))
-    }
-}
+pub type Number<U> = In<Quantity, U>;
 
 /// What stands for a number.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,6 +6,7 @@
 //! crate.
 
 use super::language::Language;
+use super::measure::Unit;
 use super::mend::Correction;
 use super::place::At;
 use super::schema::{Schema, list_of, mapping_of, typed};
@@ -14,6 +15,7 @@ use super::tree::{Entry, Kind, Span};
 use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
 pub use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
+use std::marker::PhantomData;
 use std::ops::Deref;
 
 /// Most problems that are kept.
@@ -137,6 +139,42 @@ pub trait Shape: Sized {
     fn of_key(mapping: &Value, key: &str) -> Result<Self, Misfit> {
         let value = mapping.get(key).unwrap_or(&Value::Null);
         Self::read(value).map_err(|misfit| format!("{key}: {misfit}"))
+    }
+}
+
+/// A value of the shape `S` that is measured in `U`. Derefs to the value, where the unit does not matter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct In<S, U>(S, PhantomData<U>);
+
+impl<S: Clone, U> In<S, U> {
+    /// The same, measured in something else.
+    pub fn measured_in<V>(&self) -> In<S, V> {
+        In(self.0.clone(), PhantomData)
+    }
+}
+
+impl<S, U> Deref for In<S, U> {
+    type Target = S;
+    fn deref(&self) -> &S {
+        &self.0
+    }
+}
+
+impl<S: Shape, U: Unit> Shape for In<S, U> {
+    fn unit() -> String {
+        U::unit()
+    }
+
+    fn schema(to: &mut Schema) -> Value {
+        S::schema(to)
+    }
+
+    fn check(at: At<'_>, problems: &Problems) {
+        S::check(at, problems);
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        Ok(In(S::read(value)?, PhantomData))
     }
 }
 

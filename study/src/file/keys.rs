@@ -5,15 +5,14 @@
 
 use crate::response;
 use crate::study::{Method, Precision, TableKind};
-use bryant_generator::description::measure::{Time, Unit};
+use bryant_generator::description::measure::Time;
 use bryant_generator::description::place::At;
 use bryant_generator::description::schema::{Schema, any_of, list_of, mapping_of, typed};
 use bryant_generator::description::shape::{
-    Key, Misfit, Named, Problems, Record, Shape, Value, check_record, misfit, record, words,
+    In, Key, Misfit, Named, Problems, Record, Shape, Value, check_record, record, words,
 };
 use bryant_generator::description::tree::Kind;
 use bryant_runtime::response::filter::Filter;
-use std::marker::PhantomData;
 
 record! {
     /// A study.
@@ -123,13 +122,13 @@ record! {
     /// Settings of all runs.
     Run as "the runs of a study" {
         /// length of a run
-        duration: Option<In<Time>> = "the model's",
+        duration: Option<In<Scalar, Time>> = "the model's",
         /// relative error of the responses that is aimed at
         accuracy: Option<Scalar> = "0.1 %",
         /// time between the samples that responses are read off
-        sampling: Option<In<Time>> = "20 between two rows of the model's table, more where a filter needs them",
+        sampling: Option<In<Scalar, Time>> = "20 between two rows of the model's table, more where a filter needs them",
         /// [fixed steps](#fixed-steps) of this length, instead of `accuracy`
-        step: Option<In<Time>>,
+        step: Option<In<Scalar, Time>>,
         /// of fixed steps: `heun`, `rk4`, `merson` or `dopri5`
         method: Option<Method> = "`rk4`",
         /// of fixed steps: share of energy and momentum that may be missing
@@ -149,9 +148,9 @@ record! {
         /// which [number](#responses)
         what: What,
         /// of `value`: the time
-        at: Option<In<Time>> = "required for `value`",
+        at: Option<In<Scalar, Time>> = "required for `value`",
         /// of clips: for how long
-        duration: Option<In<Time>> = "required for clips",
+        duration: Option<In<Scalar, Time>> = "required for clips",
         /// `CFC60` to `CFC1000`, or `SAE CFC60` to `SAE CFC1000`: filters the output first
         filter: Option<Class> = "that of the output",
     }
@@ -262,29 +261,4 @@ shapes! {
         let words: Vec<&str> = names.iter().map(String::as_str).collect();
         bryant_generator::description::schema::words(&words)
     }, |at, problems| String::check(at, problems);
-}
-
-/// A number that is measured in `U`.
-#[derive(Clone, Copy, Debug)]
-pub struct In<U>(PhantomData<U>);
-
-impl<U: Unit> Shape for In<U> {
-    fn unit() -> String {
-        U::UNIT.to_owned()
-    }
-
-    fn schema(to: &mut Schema) -> Value {
-        Scalar::schema(to)
-    }
-
-    fn check(at: At<'_>, problems: &Problems) {
-        Scalar::check(at, problems);
-    }
-
-    fn read(value: &Value) -> Result<Self, Misfit> {
-        match value {
-            Value::Mapping(_) | Value::Sequence(_) => Err(misfit(value, "a number")),
-            _ => Ok(In(PhantomData)),
-        }
-    }
 }
