@@ -343,7 +343,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     }
 
     /// True if inputs have changed since the last call.
-    fn driven_otherwise(&self) -> bool {
+    fn inputs_changed(&self) -> bool {
         self.driven.is_some_and(Driven::take_change)
     }
 
@@ -371,7 +371,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             match self.landed.take() {
                 Some(landed) => self.leave(step, landed)?,
                 // nothing has moved yet
-                None if self.driven_otherwise() => self.open(step)?,
+                None if self.inputs_changed() => self.open(step)?,
                 None => {}
             }
             if self.report.t >= self.settings.duration {
@@ -479,7 +479,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             watch.close(landing.begin, self.y, energy);
         }
         let mut renewed = self.renew(true);
-        if self.driven_otherwise() {
+        if self.inputs_changed() {
             // what depends on inputs has jumped
             self.arrive_at(self.report.t, State::Reached, true);
             self.renew(true);
