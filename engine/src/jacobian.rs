@@ -16,7 +16,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 /// The Jacobian of a model over a scalar.
-pub(crate) trait Jacobian<T>: Debug {
+pub(crate) trait Jacobian<T>: Debug + Send {
     /// Must be called when the parameters change.
     fn forget_parameters(&mut self);
     /// Writes ∂ẏ/∂y, by rows, and ∂ẏ/∂t, for the time and state `at`.

@@ -4,14 +4,20 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let yaml = include_str!("../../models/dummy15.yaml");
 //! use bryant_engine::Engine;
-//! use bryant_runtime::{Dynamics, Family};
+//! use bryant_engine::batch::{Rows, Wanted};
+//! use bryant_runtime::Dynamics;
 //!
-//! let none = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
-//! let (model, _) = bryant_generator::read_str("dummy15.yaml", yaml, &none)?;
-//! let engine = Engine::new(bryant_generator::Config::new().lists(&model))?;
+//! let engine = Engine::of_text("dummy15.yaml", yaml)?; // or Engine::load("dummy15.yaml"), or a URDF file
 //! let dummy = engine.over::<f64>();
 //! let mut y = vec![0.0; dummy.info().state_length()];
 //! dummy.initial_state(&mut y);
+//!
+//! // accelerations at two states, in lanes, on one thread
+//! let (q, v) = y.split_at(dummy.info().coordinates.len());
+//! let (q, v) = ([q, q].concat(), [v, v].concat());
+//! let mut accelerations = vec![0.0; v.len()];
+//! let rows = Rows { coordinates: &q, velocities: &v, ..Rows::default() };
+//! engine.batch(1).evaluate(Wanted::Accelerations, &rows, &mut accelerations)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -19,6 +25,8 @@
 //! | module | what |
 //! |---|---|
 //! | `model` | [`Engine`], made once from the lists of a model and shared; [`Machine`], the model over one scalar |
+//! | [`batch`] | many states at once: rates, outputs, matrices, rollouts |
+//! | `load` | engines of files and texts |
 //! | `front` | runs, rows and gradients of a model, compiled here for all scalars |
 //! | `execute` | [`Execute`], the interface of everything that evaluates lists |
 //! | `interpret` | the interpreter, for any scalar |
@@ -32,6 +40,7 @@
 //! | `info` | the facts of a model, in the form of the runtime |
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]
 
+pub mod batch;
 mod call;
 mod evaluate;
 mod execute;
@@ -39,6 +48,7 @@ mod front;
 mod info;
 mod interpret;
 mod jacobian;
+mod load;
 mod model;
 #[cfg_attr(
     not(all(
@@ -56,8 +66,10 @@ mod sets;
 mod tests;
 mod user;
 
+pub use batch::Batch;
 pub use call::{functions, table};
 pub use execute::{Execute, Given};
 pub use interpret::Interpreter;
+pub use load::LoadError;
 pub use model::{Engine, Error, Evaluated, Interpreted, Machine};
 pub use user::UserFunctions;

@@ -9,7 +9,7 @@ use crate::jacobian::{Jacobian, jacobian};
 use crate::sets::Sets;
 use crate::user::UserFunctions;
 use bryant_generator::expression::Function;
-use bryant_generator::program::{List, Lists, Method, Methods, Operation, Start};
+use bryant_generator::program::{Input, List, Lists, Method, Methods, Operation, Start};
 use bryant_runtime::dynamics::one_by_one;
 use bryant_runtime::real::Base;
 use bryant_runtime::{Adjustable, Dynamics, Family, Info, Real, Schedule, Section, Task};
@@ -251,8 +251,46 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     /// The results of a method at a time and a state, such as the entries of S; none if the lists have no such method.
     pub fn results(&self, method: Method, time: T, state: &[T]) -> Vec<T> {
         let mut results = vec![T::from_f64(0.0); self.shared.length(method)];
-        self.at(method, time, state, &mut results);
+        self.evaluate(method, time, state, &mut results);
         results
+    }
+
+    /// Writes the results of a method at a time and a state, such as the entries of S. `results` is at least as long;
+    /// nothing is written if the lists have no such method.
+    pub fn evaluate(&self, method: Method, time: T, state: &[T], results: &mut [T]) {
+        self.at(method, time, state, results);
+    }
+
+    /// Sets some parameters \[SI\], by their index in [`Info::parameters`].
+    pub fn set_some(&mut self, parameters: &[usize], values: &[T]) {
+        for (index, value) in parameters.iter().zip(values) {
+            self.parameters[*index] = *value;
+        }
+        if self.depends(Method::Derived, parameters) {
+            self.derive();
+        } else {
+            self.execute.set_constants(&self.parameters, &self.derived);
+            if let Some(jacobian) = self.jacobian.get_mut() {
+                jacobian.forget_parameters();
+            }
+        }
+    }
+
+    /// Whether a method needs one of these parameters, itself or by a value that depends on parameters alone.
+    pub fn depends(&self, method: Method, parameters: &[usize]) -> bool {
+        let lists = &self.shared.lists;
+        let needs = |method: Method, derived: bool| {
+            let mut inputs = lists.list(method).inputs.iter();
+            inputs.any(|input| match input {
+                Input::Parameter(index) => parameters.contains(&(*index as usize)),
+                Input::Derived(_) => derived,
+                _ => false,
+            })
+        };
+        needs(
+            method,
+            method != Method::Derived && needs(Method::Derived, false),
+        )
     }
 
     /// Computes the values that depend only on parameters.

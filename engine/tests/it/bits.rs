@@ -9,7 +9,7 @@
 //! The text of generated Rust is the same for every scalar, so compiling it for one scalar tests all of it. With `--cfg bryant_nightly` it is compared over
 //! every scalar (`every`): the compiler takes minutes for that.
 
-mod common;
+pub mod common;
 
 mod compiled;
 #[cfg(bryant_nightly)]

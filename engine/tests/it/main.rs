@@ -1,6 +1,7 @@
 //! The engine as its users call it, in one program, so that it is linked once.
 
 mod accelerations;
+mod batch;
 mod bits;
 mod c;
 mod corner;

@@ -16,7 +16,7 @@ pub trait Instructions {
 }
 
 /// A register of numbers, one per scenario.
-pub trait Register: Instructions + Elementary + Copy + Debug + 'static {
+pub trait Register: Send + Sync + Instructions + Elementary + Copy + Debug + 'static {
     /// The number in a lane: a double or a single.
     type One: Real + PartialEq;
     /// One truth value per lane.

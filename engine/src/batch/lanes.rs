@@ -1,0 +1,479 @@
+//! The model over registers of one width: rows become lanes, and lanes rows.
+
+use super::{Hold, Rollout, Rows, Wanted};
+use crate::model::{Engine, Evaluated};
+use bryant_generator::program::Method;
+use bryant_runtime::real::lanes::OfAnyWidth;
+use bryant_runtime::{Adjustable, Dynamics, Real, Section, Several, Task};
+use std::ops::Range;
+
+/// The model over registers of one width, which have no name outside of [`with_width`].
+pub(super) trait Lanes: Send {
+    fn vary(&mut self, parameters: &[usize]);
+    fn set_parameters(&mut self, values: &[f64]);
+    /// Writes to `results` what is wanted at the rows of a range.
+    fn evaluate(
+        &mut self,
+        wanted: Wanted,
+        rows: &Rows<'_>,
+        range: Range<usize>,
+        results: &mut [f64],
+    );
+    /// Takes steps from the rows of a range, and writes states and outputs.
+    fn rollout(
+        &mut self,
+        rollout: &Rollout,
+        rows: &Rows<'_>,
+        range: Range<usize>,
+        results: [&mut [f64]; 2],
+    );
+}
+
+/// Makes the model over registers.
+pub(super) struct Make<'a>(pub &'a Engine);
+
+impl OfAnyWidth for Make<'_> {
+    type Output = Box<dyn Lanes>;
+    fn run<T: Several<One = f64>>(self) -> Box<dyn Lanes> {
+        let model: Evaluated<T> = self.0.over();
+        let info = model.info();
+        let zeros = |length| vec![T::from_f64(0.0); length];
+        let most = [
+            info.state_length(),
+            info.velocities.len() * info.velocities.len(),
+            Section::ALL
+                .iter()
+                .map(|of| info.length(*of))
+                .max()
+                .unwrap_or(0),
+        ];
+        let length = info.state_length();
+        let mut start = zeros(length);
+        model.initial_state(&mut start);
+        Box::new(Held {
+            y: zeros(length),
+            rate: zeros(length),
+            stage: zeros(length),
+            sum: zeros(length),
+            before: zeros(length),
+            results: zeros(most.into_iter().max().unwrap_or(0)),
+            values: Vec::new(),
+            at_end: Vec::new(),
+            defaults: Vec::new(),
+            now: Vec::new(),
+            varying: Vec::new(),
+            start,
+            model,
+        })
+    }
+}
+
+/// The model over registers, with room for a register full of rows.
+struct Held<T: Real> {
+    model: Evaluated<T>,
+    /// The state with which a run starts.
+    start: Vec<T>,
+    y: Vec<T>,
+    rate: Vec<T>,
+    stage: Vec<T>,
+    sum: Vec<T>,
+    before: Vec<T>,
+    results: Vec<T>,
+    varying: Vec<usize>,
+    /// The values of the varying parameters at the beginning of a step, and at its end; those of the batch.
+    values: Vec<T>,
+    at_end: Vec<T>,
+    defaults: Vec<T>,
+    /// Room for the values within a step.
+    now: Vec<T>,
+}
+
+/// Loads entries of rows into lanes. Lanes beyond the last row have the last row.
+struct Load<'a, T> {
+    rows: &'a [f64],
+    /// Distance of rows.
+    stride: usize,
+    first: usize,
+    end: usize,
+    into: &'a mut [T],
+}
+
+impl<T: Several<One = f64>> Task for Load<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let mut lanes = T::from_f64(0.0).lanes();
+        for (entry, into) in self.into.iter_mut().enumerate() {
+            for (lane, value) in lanes.iter_mut().enumerate().take(T::LANES) {
+                let row = (self.first + lane).min(self.end - 1);
+                *value = self.rows[row * self.stride + entry];
+            }
+            *into = T::of_lanes(&lanes);
+        }
+    }
+}
+
+/// Stores lanes as rows, but for those beyond the last row.
+struct Store<'a, T> {
+    from: &'a [T],
+    stride: usize,
+    rows: usize,
+    results: &'a mut [f64],
+}
+
+impl<T: Several<One = f64>> Task for Store<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        for (entry, from) in self.from.iter().enumerate() {
+            let lanes = from.lanes();
+            for (row, value) in lanes.iter().enumerate().take(self.rows) {
+                self.results[row * self.stride + entry] = *value;
+            }
+        }
+    }
+}
+
+/// to = from + length · rate
+struct Ahead<'a, T> {
+    from: &'a [T],
+    length: T,
+    rate: &'a [T],
+    to: &'a mut [T],
+}
+
+impl<T: Real> Task for Ahead<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        for ((to, from), rate) in self.to.iter_mut().zip(self.from).zip(self.rate) {
+            *to = self.length.mul_add(*rate, *from);
+        }
+    }
+}
+
+/// to = to + length · rate
+struct Add<'a, T> {
+    length: T,
+    rate: &'a [T],
+    to: &'a mut [T],
+}
+
+impl<T: Real> Task for Add<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        for (to, rate) in self.to.iter_mut().zip(self.rate) {
+            *to = self.length.mul_add(*rate, *to);
+        }
+    }
+}
+
+/// to = from + share · (end − from)
+struct Between<'a, T> {
+    from: &'a [T],
+    end: &'a [T],
+    share: T,
+    to: &'a mut [T],
+}
+
+impl<T: Real> Task for Between<'_, T> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        for ((to, from), end) in self.to.iter_mut().zip(self.from).zip(self.end) {
+            *to = self.share.mul_add(*end - *from, *from);
+        }
+    }
+}
+
+/// Turns the upper triangle of a matrix, by rows, into the whole symmetric matrix, in place.
+fn spread<T: Copy>(size: usize, entries: &mut [T]) {
+    let mut from = size * (size + 1) / 2;
+    for row in (0..size).rev() {
+        for column in (row..size).rev() {
+            from -= 1;
+            entries[row * size + column] = entries[from];
+        }
+    }
+    for row in 0..size {
+        for column in 0..row {
+            entries[row * size + column] = entries[column * size + row];
+        }
+    }
+}
+
+impl<T: Several<One = f64>> Held<T> {
+    /// Loads the states of rows from `first` on.
+    fn load(&mut self, rows: &Rows<'_>, first: usize, end: usize) {
+        let info = self.model.info();
+        let [q, v] = [info.coordinates.len(), info.velocities.len()];
+        self.y.copy_from_slice(&self.start);
+        let (coordinates, rest) = self.y.split_at_mut(q);
+        let (velocities, states) = rest.split_at_mut(v);
+        for (rows, stride, into) in [
+            (rows.coordinates, q, coordinates),
+            (rows.velocities, v, velocities),
+            (rows.states, states.len(), states),
+        ] {
+            if !rows.is_empty() {
+                T::dispatch(Load {
+                    rows,
+                    stride,
+                    first,
+                    end,
+                    into,
+                });
+            }
+        }
+    }
+
+    /// Loads the inputs of the tick `tick` of `ticks` of the rows from `first` on.
+    fn load_inputs(&mut self, inputs: &[f64], first: usize, end: usize, [tick, ticks]: [usize; 2]) {
+        let width = self.varying.len();
+        T::dispatch(Load {
+            rows: &inputs[tick * width..],
+            stride: ticks * width,
+            first,
+            end,
+            into: &mut self.values,
+        });
+    }
+
+    /// Restores the values of the batch.
+    fn forget_inputs(&mut self, rows: &Rows<'_>) {
+        if !rows.inputs.is_empty() {
+            self.model.set_some(&self.varying, &self.defaults);
+        }
+    }
+
+    /// Computes what is wanted into `results`, and returns its place there.
+    fn compute(&mut self, wanted: Wanted, time: T) -> Range<usize> {
+        let info = self.model.info();
+        let [q, v] = [info.coordinates.len(), info.velocities.len()];
+        let (model, y, results) = (&self.model, &self.y, &mut self.results);
+        let mut found = |method, length| model.evaluate(method, time, y, &mut results[..length]);
+        match wanted {
+            Wanted::Rates | Wanted::Accelerations => {
+                let length = info.state_length();
+                model.derivative(time, y, &mut results[..length]);
+                match wanted {
+                    Wanted::Rates => 0..length,
+                    _ => q..q + v,
+                }
+            }
+            Wanted::Section(section) => {
+                let length = info.length(section);
+                model.section(section, time, y, &mut results[..length]);
+                0..length
+            }
+            Wanted::MassMatrix => {
+                let half = v * (v + 1) / 2;
+                found(Method::MassMatrix, half);
+                spread(v, results);
+                0..v * v
+            }
+            Wanted::VelocityForces => {
+                found(Method::VelocityForces, v);
+                0..v
+            }
+            Wanted::AppliedForces => {
+                found(Method::AppliedForces, v);
+                0..v
+            }
+        }
+    }
+
+    /// Repeats the discrete update until nothing changes, because one switch may wait for another.
+    fn renew(&mut self, time: T) {
+        let info = self.model.info();
+        if info.memory.is_empty() {
+            return;
+        }
+        for _ in 0..=info.event_functions.len() {
+            std::mem::swap(&mut self.before, &mut self.y);
+            self.model.renewed(time, &self.before, &mut self.y);
+            if self.y == self.before {
+                break;
+            }
+        }
+    }
+
+    /// Sets the inputs at a share of the step.
+    fn turn_inputs(&mut self, share: f64) {
+        T::dispatch(Between {
+            from: &self.values,
+            end: &self.at_end,
+            share: T::from_f64(share),
+            to: &mut self.now,
+        });
+        self.model.set_some(&self.varying, &self.now);
+    }
+
+    /// Takes a step of Runge and Kutta. `turns` says from which share of an interval of inputs to which the step goes, if
+    /// they change within it.
+    fn step(&mut self, t: f64, h: f64, turns: Option<[f64; 2]>) {
+        let number = T::from_f64;
+        if let Some([begin, _]) = turns {
+            self.turn_inputs(begin);
+        }
+        self.model.derivative(number(t), &self.y, &mut self.rate);
+        self.sum.copy_from_slice(&self.y);
+        // length of the stage, weight of the rate before it, share of the step
+        for (length, weight, share) in [(0.5, 1.0, 0.5), (0.5, 2.0, 0.5), (1.0, 2.0, 1.0)] {
+            T::dispatch(Add {
+                length: number(h * weight / 6.0),
+                rate: &self.rate,
+                to: &mut self.sum,
+            });
+            T::dispatch(Ahead {
+                from: &self.y,
+                length: number(h * length),
+                rate: &self.rate,
+                to: &mut self.stage,
+            });
+            if let Some([begin, end]) = turns {
+                self.turn_inputs(begin + share * (end - begin));
+            }
+            let at = number(t + share * h);
+            self.model.derivative(at, &self.stage, &mut self.rate);
+        }
+        T::dispatch(Add {
+            length: number(h / 6.0),
+            rate: &self.rate,
+            to: &mut self.sum,
+        });
+        std::mem::swap(&mut self.y, &mut self.sum);
+        self.model.normalize(&mut self.y);
+        self.renew(number(t + h));
+    }
+}
+
+impl<T: Several<One = f64>> Lanes for Held<T> {
+    fn vary(&mut self, parameters: &[usize]) {
+        self.varying = parameters.to_vec();
+        let zero = T::from_f64(0.0);
+        for values in [
+            &mut self.values,
+            &mut self.at_end,
+            &mut self.now,
+            &mut self.defaults,
+        ] {
+            values.clear();
+            values.resize(parameters.len(), zero);
+        }
+    }
+
+    fn set_parameters(&mut self, values: &[f64]) {
+        let all: Vec<T> = values.iter().map(|value| T::from_f64(*value)).collect();
+        self.model.set_parameters(&all);
+        for (default, index) in self.defaults.iter_mut().zip(&self.varying) {
+            *default = all[*index];
+        }
+        self.model.initial_state(&mut self.start);
+    }
+
+    fn evaluate(
+        &mut self,
+        wanted: Wanted,
+        rows: &Rows<'_>,
+        range: Range<usize>,
+        results: &mut [f64],
+    ) {
+        for first in range.clone().step_by(T::LANES) {
+            self.load(rows, first, range.end);
+            if !rows.inputs.is_empty() {
+                self.load_inputs(rows.inputs, first, range.end, [0, 1]);
+                self.model.set_some(&self.varying, &self.values);
+            }
+            let found = self.compute(wanted, T::from_f64(rows.time));
+            let stride = found.len();
+            T::dispatch(Store {
+                from: &self.results[found],
+                stride,
+                rows: T::LANES.min(range.end - first),
+                results: &mut results[(first - range.start) * stride..],
+            });
+        }
+        self.forget_inputs(rows);
+    }
+
+    fn rollout(
+        &mut self,
+        rollout: &Rollout,
+        rows: &Rows<'_>,
+        range: Range<usize>,
+        [states, outputs]: [&mut [f64]; 2],
+    ) {
+        let Rollout {
+            step,
+            steps,
+            parts,
+            hold,
+        } = *rollout;
+        let parts = parts.max(1);
+        let linear = hold == Hold::Linear && !rows.inputs.is_empty();
+        let ticks = steps + usize::from(hold == Hold::Linear);
+        let info = self.model.info();
+        let lengths = [info.state_length(), info.outputs.len()];
+        for first in range.clone().step_by(T::LANES) {
+            self.load(rows, first, range.end);
+            self.forget_inputs(rows);
+            let lanes = T::LANES.min(range.end - first);
+            let mut begun = false;
+            for k in 0..steps {
+                let begin = rows.time + step * k as f64;
+                if !rows.inputs.is_empty() {
+                    self.load_inputs(rows.inputs, first, range.end, [k, ticks]);
+                    self.model.set_some(&self.varying, &self.values);
+                }
+                if linear {
+                    let next = &rows.inputs[(k + 1) * self.varying.len()..];
+                    T::dispatch(Load {
+                        rows: next,
+                        stride: ticks * self.varying.len(),
+                        first,
+                        end: range.end,
+                        into: &mut self.at_end,
+                    });
+                }
+                if !begun {
+                    // switches that are past their thresholds act at once
+                    self.renew(T::from_f64(begin));
+                    begun = true;
+                }
+                let h = step / parts as f64;
+                for part in 0..parts {
+                    let share = |part: usize| part as f64 / parts as f64;
+                    let turns = linear.then(|| [share(part), share(part + 1)]);
+                    self.step(begin + h * part as f64, h, turns);
+                }
+                let time = T::from_f64(rows.time + step * (k + 1) as f64);
+                for (section, length, results) in [
+                    (None, lengths[0], &mut *states),
+                    (Some(Section::Outputs), lengths[1], &mut *outputs),
+                ] {
+                    if results.is_empty() {
+                        continue;
+                    }
+                    let from = match section {
+                        None => &self.y[..],
+                        Some(section) => {
+                            let results = &mut self.results[..length];
+                            self.model.section(section, time, &self.y, results);
+                            results
+                        }
+                    };
+                    let row = (first - range.start) * steps + k;
+                    T::dispatch(Store {
+                        from,
+                        stride: steps * length,
+                        rows: lanes,
+                        results: &mut results[row * length..],
+                    });
+                }
+            }
+        }
+        self.forget_inputs(rows);
+    }
+}
