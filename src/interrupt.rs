@@ -29,8 +29,24 @@ pub fn unless_asked() -> ControlFlow<()> {
     }
 }
 
+/// True where the program that the command runs in handles Ctrl-C.
+static HANDLED: AtomicBool = AtomicBool::new(false);
+
+/// From now on, the program handles Ctrl-C itself, and says by [`stop`] that a command should end.
+pub fn is_handled() {
+    HANDLED.store(true, Ordering::Relaxed);
+}
+
+/// Asks the command that runs now to end, as Ctrl-C does, or takes this back before another one begins.
+pub fn stop(now: bool) {
+    ASKED.store(now, Ordering::Relaxed);
+}
+
 /// Begins to handle Ctrl-C. A program that was started to ignore it continues to ignore it.
 pub fn watch() {
+    if HANDLED.load(Ordering::Relaxed) {
+        return;
+    }
     #[cfg(unix)]
     unix::watch();
     #[cfg(windows)]

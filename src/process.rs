@@ -7,6 +7,8 @@
     )
 )]
 
+use std::cell::RefCell;
+
 /// True if standard output was closed when the process began, as by `bryant run MODEL >&-`. Printed text is then lost.
 ///
 /// Before `main` begins, the standard library opens `/dev/null` in place of closed descriptors. Writing then succeeds,
@@ -22,10 +24,29 @@ pub fn stdout_was_closed() -> bool {
     false
 }
 
-/// The command line of this process, quoted for a shell.
+thread_local! {
+    /// The command line of the command that runs on this thread inside of another program.
+    static LINE: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// The command line of this command, quoted for a shell.
 pub fn command_line() -> String {
-    let words = std::env::args_os().skip(1);
-    let words = words.map(|word| quoted(&word.to_string_lossy()));
+    LINE.with_borrow(Option::clone).unwrap_or_else(|| {
+        let words = std::env::args_os().skip(1);
+        joined(words.map(|word| word.to_string_lossy().into_owned()))
+    })
+}
+
+/// Calls `command`, whose command line is this one (without the name of the program).
+pub fn with_command_line<R>(line: &[String], command: impl FnOnce() -> R) -> R {
+    LINE.set(Some(joined(line.iter().cloned())));
+    let result = command();
+    LINE.set(None);
+    result
+}
+
+fn joined(words: impl Iterator<Item = String>) -> String {
+    let words = words.map(|word| quoted(&word));
     let words: Vec<String> = std::iter::once("bryant".to_owned()).chain(words).collect();
     words.join(" ")
 }

@@ -142,13 +142,7 @@ pub struct Read {
 /// names and a remedy.
 pub fn read(path: &Path, info: &Info, own: &[f64], end: f64) -> Result<Read, String> {
     let shown = path.display();
-    let text =
-        read_file(path).map_err(|error| format!("cannot read the state {shown}: {error}"))?;
-    let file: File = serde_json::from_str(&text).map_err(|error| {
-        format!(
-            "{shown}: this is no state: {error}\n  help: --final-state of `bryant run` writes one"
-        )
-    })?;
+    let (text, file) = file(path)?;
     if !(0.0..end).contains(&file.time) {
         let place = text.lines().position(|line| line.contains("\"time\""));
         let line = place.map_or(String::new(), |line| format!(":{}", line + 1));
@@ -167,6 +161,27 @@ pub fn read(path: &Path, info: &Info, own: &[f64], end: f64) -> Result<Read, Str
                 .collect(),
         })
         .map_err(|error| format!("{shown}: {error}"))
+}
+
+/// The time of the state in a file \[s\].
+///
+/// # Errors
+/// The file cannot be read, or it is no state.
+pub fn time(path: &Path) -> Result<f64, String> {
+    file(path).map(|(_, file)| file.time)
+}
+
+/// The text of a file, and the state in it.
+fn file(path: &Path) -> Result<(String, File), String> {
+    let shown = path.display();
+    let text =
+        read_file(path).map_err(|error| format!("cannot read the state {shown}: {error}"))?;
+    let file = serde_json::from_str(&text).map_err(|error| {
+        format!(
+            "{shown}: this is no state: {error}\n  help: --final-state of `bryant run` writes one"
+        )
+    })?;
+    Ok((text, file))
 }
 
 /// The name of the system of a coordinate or a velocity.

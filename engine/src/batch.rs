@@ -91,6 +91,8 @@ pub enum Misfit {
         row: usize,
         /// Why.
         refusal: Refusal,
+        /// Names and limits, for the message.
+        info: &'static Info,
     },
     /// The engine was made without what is wanted.
     Missing {
@@ -107,7 +109,10 @@ impl std::fmt::Display for Misfit {
                 found,
                 needed,
             } => write!(f, "{what} must have {needed} numbers, and has {found}"),
-            Misfit::Refused { row, refusal } => write!(f, "row {row} is refused: {refusal:?}"),
+            Misfit::Refused { row, refusal, info } => {
+                write!(f, "row {row}: ")?;
+                refusal.write(info, f)
+            }
             Misfit::Missing { what } => write!(f, "the engine was made without {what}"),
         }
     }
@@ -227,7 +232,12 @@ impl Batch {
     /// Another number of values than there are parameters, or values that are refused; nothing is set then.
     pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), Misfit> {
         fits("parameters", values.len(), self.parameters.len())?;
-        let refused = |refusal| Misfit::Refused { row: 0, refusal };
+        let info = self.info;
+        let refused = |refusal| Misfit::Refused {
+            row: 0,
+            refusal,
+            info,
+        };
         for (index, &value) in values.iter().enumerate() {
             self.allowed(index, value).map_err(refused)?;
         }
@@ -359,7 +369,8 @@ impl Batch {
     /// Refuses values that are not finite, outside of the limits of an input, or that break a condition.
     fn check(&mut self, inputs: &[f64]) -> Result<(), Misfit> {
         for (row, values) in inputs.chunks_exact(self.varying.len().max(1)).enumerate() {
-            let refused = |refusal| Misfit::Refused { row, refusal };
+            let info = self.info;
+            let refused = |refusal| Misfit::Refused { row, refusal, info };
             for (&index, &value) in self.varying.iter().zip(values) {
                 self.allowed(index, value).map_err(refused)?;
             }

@@ -81,6 +81,30 @@ impl Refusal {
         }
         model.violated().map(Refusal::Condition)
     }
+
+    /// Writes why parameters of a model are refused.
+    pub fn write(self, info: &Info, f: &mut dyn fmt::Write) -> fmt::Result {
+        let parameter = |index: usize| info.parameters.get(index);
+        let name = |index| parameter(index).map_or("?", |of| of.name);
+        match self {
+            Refusal::NotFinite(index, value) => {
+                let name = name(index);
+                write!(f, "the parameter \"{name}\" is {value}, but must be finite")
+            }
+            Refusal::OutOfLimits(index, value) => {
+                let [min, max] = parameter(index).map_or([0.0; 2], |of| [of.min, of.max]);
+                let (name, unit) = (name(index), parameter(index).map_or("", |of| of.unit));
+                write!(
+                    f,
+                    "the input \"{name}\" is {value} {unit}, which is out of its limits, {min} to {max}"
+                )
+            }
+            Refusal::Condition(index) => {
+                let condition = info.conditions.get(index).copied().unwrap_or("?");
+                write!(f, "{condition}, which is not so with these parameters")
+            }
+        }
+    }
 }
 
 /// The known cause of a failure, in the model, at a state.
@@ -230,21 +254,7 @@ impl Failure {
             Reason::InvalidSettings(Setting { name, value, must }) => {
                 write!(f, "{name} is {value}, but must be {must}")
             }
-            Reason::Refused(Refusal::NotFinite(index, value)) => {
-                let name = info.parameters.get(index).map_or("?", |p| p.name);
-                write!(f, "the parameter \"{name}\" is {value}, but must be finite")
-            }
-            Reason::Refused(Refusal::OutOfLimits(index, value)) => {
-                let name = info.parameters.get(index).map_or("?", |p| p.name);
-                write!(
-                    f,
-                    "the input \"{name}\" is {value}, which is out of its limits"
-                )
-            }
-            Reason::Refused(Refusal::Condition(index)) => {
-                let condition = info.conditions.get(index).copied().unwrap_or("?");
-                write!(f, "{condition}, which is not so with these parameters")
-            }
+            Reason::Refused(refusal) => refusal.write(info, f),
             _ => return None,
         })
     }

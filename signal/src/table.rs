@@ -3,8 +3,19 @@
 
 use crate::recording::text_of;
 use crate::{Channel, ReadError, Recording, Signal, unit};
-use bryant_table::{Fault, Table};
+use bryant_table::{Fault, Heading, Table};
 use std::path::Path;
+
+/// A column of a table over its times, which may be at any intervals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// Its name, the heading without the unit.
+    pub name: String,
+    /// Its unit as it is written; empty if there is none.
+    pub unit: String,
+    /// The numbers; NaN for an empty cell.
+    pub values: Vec<f64>,
+}
 
 /// Reads a table, with fields between `,`, `;` or tabs, as in the tables of curves. An empty cell is a missing sample.
 ///
@@ -12,18 +23,60 @@ use std::path::Path;
 /// The file cannot be read, a cell is not a number, a line has too many or too few fields, or times are not at equal
 /// intervals.
 pub fn read(path: &Path) -> Result<Recording, ReadError> {
+    let Columns {
+        times,
+        line,
+        columns,
+    } = columns(path)?;
+    let mut channels = Vec::new();
+    for Column { name, unit, values } in columns {
+        let signal = Signal::of_samples(&times, &values).ok_or_else(|| {
+            ReadError::content(
+                path,
+                line + 1,
+                "times must be two or more, at equal intervals: write the run with `--every`, or sample the test evenly",
+            )
+        })?;
+        channels.push(Channel {
+            name,
+            unit,
+            ..Channel::of(signal)
+        });
+    }
+    Ok(Recording {
+        channels,
+        damaged: Vec::new(),
+    })
+}
+
+/// A table over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Columns {
+    /// The times \[s\], in their order in the file.
+    pub times: Vec<f64>,
+    /// The line of the headings, from 1 on.
+    pub line: u64,
+    /// The other columns.
+    pub columns: Vec<Column>,
+}
+
+/// Reads a table as [`read`] does, at any times.
+///
+/// # Errors
+/// The file cannot be read, a cell is not a number, or a line has too many or too few fields.
+pub fn columns(path: &Path) -> Result<Columns, ReadError> {
     let text = text_of(path).map_err(|error| ReadError::io(path, error))?;
     let wrong = |fault: Fault| ReadError::fault(path, &fault);
     let table = Table::of(&text).map_err(wrong)?;
     let table = table.ok_or_else(|| ReadError::content(path, 1, "the table is empty"))?;
     let headings = table.headings(&|text| unit::quantity(text).is_some());
     let time = headings[0];
+    let line = time.field.line as u64;
     let scale = match time.unit {
         Some(unit) => unit::factor(unit, "s"),
         None => time.name.eq_ignore_ascii_case("time").then_some(1.0),
     };
     let scale = scale.ok_or_else(|| {
-        let line = time.field.line as u64;
         let message = "the first column must be the time, with its unit: `time [s]` or `time [ms]`";
         ReadError::content(path, line, message)
     })?;
@@ -33,29 +86,22 @@ pub fn read(path: &Path) -> Result<Recording, ReadError> {
             column.push(field.number().map_err(wrong)?.unwrap_or(f64::NAN));
         }
     }
-    let times: Vec<f64> = columns[0].iter().map(|t| t * scale).collect();
-    let mut channels = Vec::new();
-    for (heading, column) in headings.iter().zip(&columns).skip(1) {
-        // an empty column is due to a separator at the end of every line
-        if heading.field.text.is_empty() && column.iter().all(|x| x.is_nan()) {
-            continue;
-        }
-        let signal = Signal::of_samples(&times, column).ok_or_else(|| {
-            ReadError::content(
-                path,
-                time.field.line as u64 + 1,
-                "times must be two or more, at equal intervals: write the run with `--every`, or sample the test evenly",
-            )
-        })?;
-        channels.push(Channel {
-            name: heading.name.to_owned(),
-            unit: heading.unit.unwrap_or_default().to_owned(),
-            ..Channel::of(signal)
-        });
-    }
-    Ok(Recording {
-        channels,
-        damaged: Vec::new(),
+    let mut columns = columns.into_iter();
+    let times = columns.next().unwrap_or_default();
+    let named = headings.iter().skip(1).zip(columns);
+    // an empty column is due to a separator at the end of every line
+    let named = named.filter(|(heading, column)| {
+        !(heading.field.text.is_empty() && column.iter().all(|x: &f64| x.is_nan()))
+    });
+    let column = |(heading, values): (&Heading<'_>, Vec<f64>)| Column {
+        name: heading.name.to_owned(),
+        unit: heading.unit.unwrap_or_default().to_owned(),
+        values,
+    };
+    Ok(Columns {
+        times: times.iter().map(|t| t * scale).collect(),
+        line,
+        columns: named.map(column).collect(),
     })
 }
 

@@ -178,12 +178,18 @@ pub fn stdout_for_results() -> Box<dyn Output> {
 }
 
 /// A place where results are written.
-pub trait Output: std::io::Write + std::io::IsTerminal {
+pub trait Output: std::io::Write {
+    /// True for a terminal.
+    fn is_terminal(&self) -> bool;
     /// Width of a line in characters; `None` if the output is not a terminal.
     fn width(&self) -> Option<usize>;
 }
 
 impl Output for std::io::Stdout {
+    fn is_terminal(&self) -> bool {
+        std::io::IsTerminal::is_terminal(self)
+    }
+
     fn width(&self) -> Option<usize> {
         let (width, _) = terminal_size::terminal_size_of(std::io::stdout())?;
         Some(width.0.into())
@@ -192,6 +198,10 @@ impl Output for std::io::Stdout {
 
 #[cfg(any(unix, windows))]
 impl Output for std::fs::File {
+    fn is_terminal(&self) -> bool {
+        std::io::IsTerminal::is_terminal(self)
+    }
+
     fn width(&self) -> Option<usize> {
         let (width, _) = terminal_size::terminal_size_of(self)?;
         Some(width.0.into())

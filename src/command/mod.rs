@@ -35,7 +35,7 @@ use bryant_runtime::program::{ErrorKind, RunError};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::io::Write;
 use std::process::ExitCode;
-use terminal::Terminal;
+use terminal::{Kept, Terminal};
 
 /// Simulate how mechanisms move: crash-test dummies in belts and seats, robots, any tree of rigid bodies.
 #[derive(Debug, Parser)]
@@ -146,15 +146,15 @@ impl Error {
         })
     }
 
-    fn exit_code(&self) -> ExitCode {
-        ExitCode::from(match self {
+    fn exit_code(&self) -> u8 {
+        match self {
             Error::Closed => 0,
             Error::System(_) => 1,
             Error::Model(_) | Error::Input(_) => 2,
             Error::User(_) => 3,
             Error::Run(error) => error.exit_code(),
             Error::Interrupted(_) => interrupt::EXIT_CODE,
-        })
+        }
     }
 
     fn report(&self, terminal: &Terminal) {
@@ -178,32 +178,78 @@ pub fn main() -> ExitCode {
         Ok(cli) => cli,
         Err(error) => return print_help(&error),
     };
-    let mut terminal = Terminal::new();
-    let result = match cli.command {
-        Command::Run(arguments) => arguments.execute(&mut terminal),
-        Command::Accuracy(arguments) => arguments.execute(&mut terminal),
-        Command::Check(arguments) => arguments.execute(&mut terminal),
-        Command::Compare(arguments) => arguments.execute(&mut terminal),
-        Command::Criteria(arguments) => arguments.execute(&mut terminal),
-        Command::Effects(arguments) => arguments.execute(&mut terminal),
-        Command::Equations(arguments) => arguments.execute(&mut terminal),
-        Command::Models(arguments) => arguments.execute(&mut terminal),
-        Command::Schema(arguments) => arguments.execute(&mut terminal),
-        Command::Settle(arguments) => arguments.execute(&mut terminal),
-        Command::Stability(arguments) => arguments.execute(&mut terminal),
-        Command::Sweep(arguments) => arguments.execute(&mut terminal),
-        Command::Merge(arguments) => arguments.execute(&mut terminal),
-        Command::Gradient(arguments) => arguments.execute(&mut terminal),
-        Command::Human(arguments) => arguments.execute(&mut terminal),
-        Command::Import(arguments) => arguments.execute(&mut terminal),
-    };
-    // earlier output must come before the message
-    let printed = terminal.flush();
-    match terminal.end(printed, result) {
-        Ok(()) => ExitCode::SUCCESS,
+    ExitCode::from(cli.execute(Terminal::new()))
+}
+
+/// What a command printed, and how it ended.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Captured {
+    /// The exit code.
+    pub code: u8,
+    /// What it printed on standard output.
+    pub output: String,
+    /// What it printed on standard error.
+    pub messages: String,
+}
+
+/// Runs a command line (without the name of the program) inside of another program, which handles Ctrl-C
+/// ([`interrupt::is_handled`], [`interrupt::stop`]). Nothing is printed, but by functions of user forces.
+pub fn captured(line: &[String]) -> Captured {
+    let words = std::iter::once("bryant").chain(line.iter().map(String::as_str));
+    let cli = match Cli::try_parse_from(words) {
+        Ok(cli) => cli,
         Err(error) => {
-            error.report(&terminal);
-            error.exit_code()
+            let (text, failed) = (error.to_string(), error.use_stderr());
+            let (output, messages) = match failed {
+                true => (String::new(), text),
+                false => (text, String::new()),
+            };
+            return Captured {
+                code: if failed { 2 } else { 0 },
+                output,
+                messages,
+            };
+        }
+    };
+    let (output, messages) = (Kept::default(), Kept::default());
+    let terminal = Terminal::keeping(output.clone(), messages.clone());
+    let code = process::with_command_line(line, || cli.execute(terminal));
+    Captured {
+        code,
+        output: output.text(),
+        messages: messages.text(),
+    }
+}
+
+impl Cli {
+    /// Runs the command, and returns its exit code.
+    fn execute(self, mut terminal: Terminal) -> u8 {
+        let result = match self.command {
+            Command::Run(arguments) => arguments.execute(&mut terminal),
+            Command::Accuracy(arguments) => arguments.execute(&mut terminal),
+            Command::Check(arguments) => arguments.execute(&mut terminal),
+            Command::Compare(arguments) => arguments.execute(&mut terminal),
+            Command::Criteria(arguments) => arguments.execute(&mut terminal),
+            Command::Effects(arguments) => arguments.execute(&mut terminal),
+            Command::Equations(arguments) => arguments.execute(&mut terminal),
+            Command::Models(arguments) => arguments.execute(&mut terminal),
+            Command::Schema(arguments) => arguments.execute(&mut terminal),
+            Command::Settle(arguments) => arguments.execute(&mut terminal),
+            Command::Stability(arguments) => arguments.execute(&mut terminal),
+            Command::Sweep(arguments) => arguments.execute(&mut terminal),
+            Command::Merge(arguments) => arguments.execute(&mut terminal),
+            Command::Gradient(arguments) => arguments.execute(&mut terminal),
+            Command::Human(arguments) => arguments.execute(&mut terminal),
+            Command::Import(arguments) => arguments.execute(&mut terminal),
+        };
+        // earlier output must come before the message
+        let printed = terminal.flush();
+        match terminal.end(printed, result) {
+            Ok(()) => 0,
+            Err(error) => {
+                error.report(&terminal);
+                error.exit_code()
+            }
         }
     }
 }
@@ -222,7 +268,7 @@ fn print_help(text: &clap::Error) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             error.report(&terminal);
-            error.exit_code()
+            ExitCode::from(error.exit_code())
         }
     }
 }

@@ -3,10 +3,10 @@
 //! Progress is counted in simulated time or in items. Bar and lines show the task, the amount that is done, the total,
 //! and about how much time is left at the present rate. Commands that take less than ten seconds print no line.
 
-use super::terminal::Terminal;
+use super::terminal::{Kept, Terminal};
 use crate::accuracy::setting::time;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
@@ -45,6 +45,8 @@ struct Shared {
     over: Condvar,
     /// The time when the command began.
     command: Instant,
+    /// Where messages are kept for the program that the command runs in.
+    messages: Option<Kept>,
 }
 
 struct State {
@@ -76,17 +78,23 @@ impl Progress {
             }),
             over: Condvar::new(),
             command: terminal.begin(),
+            messages: terminal.kept_messages().cloned(),
         });
         let of_thread = Arc::clone(&shared);
-        let terminal = io::stderr().is_terminal();
-        let thread = std::thread::Builder::new().spawn(move || match terminal {
-            true => of_thread.show_bar(),
-            false => of_thread.print_lines(),
-        });
+        let shown = terminal.shows_messages();
+        let spawn = || {
+            std::thread::Builder::new().spawn(move || match shown {
+                true => of_thread.show_bar(),
+                false => of_thread.print_lines(),
+            })
+        };
         Progress {
+            // if the thread cannot be started, no progress is shown; within another program it never is
+            thread: match terminal.kept_messages() {
+                Some(_) => None,
+                None => spawn().ok(),
+            },
             shared,
-            // if the thread cannot be started, no progress is shown
-            thread: thread.ok(),
         }
     }
 
@@ -163,7 +171,10 @@ impl Shared {
     fn say(&self, text: &str) {
         let state = self.lock();
         let print = || {
-            let _ = writeln!(io::stderr(), "{text}");
+            let _ = match &self.messages {
+                Some(kept) => writeln!(kept.clone(), "{text}"),
+                None => writeln!(io::stderr(), "{text}"),
+            };
         };
         match &state.bar {
             Some(bar) => bar.suspend(print),

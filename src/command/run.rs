@@ -4,6 +4,7 @@ mod animation;
 mod comparison;
 mod criteria;
 mod files;
+mod inputs;
 mod outcome;
 mod remarks;
 mod report;
@@ -132,6 +133,12 @@ pub struct Arguments {
     /// Value of a parameter of the model, with its unit; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
+
+    /// File that an input of the model follows over time: a table whose first column is the time, or a test in ISO-MME. It is the column
+    /// with the name of the input, or the only one; others are named as 'torque=measured.csv, COLUMN'. Values go in straight lines from
+    /// row to row; may be repeated
+    #[arg(long, value_name = "NAME=FILE", value_parser = inputs::input_file)]
+    input: Vec<inputs::InputFile>,
 
     /// Give up when the computation takes longer than this, or would take ten times as long at its present rate; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
@@ -328,6 +335,7 @@ impl Arguments {
         for note in super::caution::thinned(&found.model) {
             terminal.note(&note);
         }
+        self.follow_inputs(&mut found, &job)?;
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
             let read = self.read_start(path, &found, &engine, &job)?;
@@ -394,6 +402,23 @@ impl Arguments {
         let duration = job.duration.unwrap_or(found.model.run.duration);
         let outcome = self.conclude(&recording, &errors, duration);
         terminal.end(printed, outcome)
+    }
+
+    /// Lets the inputs of `--input` follow their files.
+    fn follow_inputs(&self, found: &mut Found, job: &Job) -> Result<(), Error> {
+        let set = |name: &str| job.parameters.iter().any(|(set, _)| set == name);
+        if let Some(both) = self.input.iter().find(|file| set(file.name())) {
+            return Err(Error::Input(format!(
+                "the input \"{}\" has a value from --set, and a file from --input\n  help: give one of them",
+                both.name()
+            )));
+        }
+        let start = match &self.start {
+            Some(path) => state_file::time(path).map_err(Error::Input)?,
+            None => 0.0,
+        };
+        let end = self.duration.unwrap_or(found.model.run.duration);
+        inputs::follow(&mut found.model, &self.input, [start, end])
     }
 
     /// Reads the state of `--start`, with remarks about it.

@@ -5,6 +5,7 @@ use crate::build_on_demand::guard::{self, Output};
 use crate::process;
 use bryant_picture::text::wrap;
 use std::io::{self, BufWriter, IsTerminal, Write};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 /// Least width of lines in characters; narrower terminals break the lines themselves.
@@ -15,6 +16,8 @@ const HANGING: usize = 2;
 /// Prints results and messages.
 pub struct Terminal {
     output: BufWriter<Box<dyn Output>>,
+    /// Where messages go; `None` is standard error.
+    messages: Option<Kept>,
     /// True if standard output is closed, so that printed text is lost.
     closed: bool,
     /// True once the user has been told that something could not be printed.
@@ -34,9 +37,18 @@ impl Terminal {
     fn over(output: Box<dyn guard::Output>, closed: bool) -> Self {
         Self {
             output: BufWriter::new(output),
+            messages: None,
             closed,
             told: false,
             begin: Instant::now(),
+        }
+    }
+
+    /// One that keeps what is printed and all messages, for a command inside of another program.
+    pub fn keeping(output: Kept, messages: Kept) -> Self {
+        Self {
+            messages: Some(messages),
+            ..Self::over(Box::new(output), false)
         }
     }
 
@@ -99,11 +111,11 @@ impl Terminal {
     pub fn note(&mut self, text: &str) {
         // keeps the order of texts if both outputs go to one terminal
         let _ = self.output.flush();
-        let text = match message_width() {
+        let text = match message_width().filter(|_| self.messages.is_none()) {
             Some(width) => fitted(text, width),
             None => text.to_owned(),
         };
-        let _ = writeln!(io::stderr(), "{text}");
+        self.message(&text);
     }
 
     /// Prints an error with its remedy.
@@ -114,19 +126,37 @@ impl Terminal {
             ("", "", "")
         };
         let message = message.replace("\n  help:", &format!("\n  {cyan}help:{reset}"));
-        let _ = writeln!(io::stderr(), "{red}error:{reset} {message}");
+        self.message(&format!("{red}error:{reset} {message}"));
     }
 
     /// Prints an error that is already formatted.
     pub fn error_text(&self, text: &str) {
-        let _ = writeln!(io::stderr(), "{text}");
+        self.message(text);
+    }
+
+    /// Prints a message.
+    fn message(&self, text: &str) {
+        let _ = match &self.messages {
+            Some(kept) => writeln!(kept.clone(), "{text}"),
+            None => writeln!(io::stderr(), "{text}"),
+        };
+    }
+
+    /// True if messages go to a terminal, where they can be replaced.
+    pub fn shows_messages(&self) -> bool {
+        self.messages.is_none() && io::stderr().is_terminal()
+    }
+
+    /// Where messages are kept for the program that the command runs in; `None` if they go to standard error.
+    pub fn kept_messages(&self) -> Option<&Kept> {
+        self.messages.as_ref()
     }
 
     /// True if messages are coloured.
     pub fn colour(&self) -> bool {
         let refused = std::env::var_os("NO_COLOR").is_some_and(|v| !v.is_empty());
         let dumb = std::env::var_os("TERM").is_some_and(|t| t == "dumb");
-        io::stderr().is_terminal() && !refused && !dumb && process::shows_colours()
+        self.shows_messages() && !refused && !dumb && process::shows_colours()
     }
 
     /// Width of standard output in characters; `None` if it is not a terminal.
@@ -141,6 +171,40 @@ impl Terminal {
     /// The time when the command began.
     pub fn begin(&self) -> Instant {
         self.begin
+    }
+}
+
+/// Text that a command prints, kept for the program that it runs in.
+#[derive(Clone, Debug, Default)]
+pub struct Kept(Arc<Mutex<Vec<u8>>>);
+
+impl Kept {
+    /// What was printed.
+    pub fn text(&self) -> String {
+        let bytes = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        String::from_utf8_lossy(&bytes).into_owned()
+    }
+}
+
+impl Write for Kept {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Output for Kept {
+    fn is_terminal(&self) -> bool {
+        false
+    }
+
+    fn width(&self) -> Option<usize> {
+        None
     }
 }
 

@@ -236,7 +236,8 @@ fn what_does_not_fit_or_is_not_allowed_is_refused_and_changes_nothing() {
         assert_eq!(results, [7.0; 2]);
         found.unwrap_err()
     };
-    let of_row = |row, refusal| Misfit::Refused { row, refusal };
+    let info = engine.info();
+    let of_row = |row, refusal| Misfit::Refused { row, refusal, info };
     assert_eq!(
         refused(&mut batch, &[1.0, 101.0]),
         of_row(1, Refusal::OutOfLimits(1, 101.0))
@@ -246,7 +247,8 @@ fn what_does_not_fit_or_is_not_allowed_is_refused_and_changes_nothing() {
         found,
         Misfit::Refused {
             row: 0,
-            refusal: Refusal::NotFinite(1, _)
+            refusal: Refusal::NotFinite(1, _),
+            ..
         }
     ));
     assert!(matches!(

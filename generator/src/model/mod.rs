@@ -21,6 +21,7 @@ mod normal;
 mod number;
 mod numbers;
 mod output;
+mod over_time;
 pub mod part;
 pub mod placement;
 mod quantity;

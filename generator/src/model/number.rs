@@ -12,6 +12,14 @@ pub enum Number {
     Constant(f64),
     /// Index into [`Model::parameters`](super::Model::parameters).
     Parameter(usize),
+    /// The value of a curve at time t, by its index in [`Model::curves`](super::Model::curves), which an input has in place
+    /// of the parameter with this index.
+    OverTime {
+        /// The curve, over t \[s\].
+        curve: usize,
+        /// The input.
+        input: usize,
+    },
     /// −a
     Negative(Box<Number>),
     /// a + b
@@ -135,7 +143,7 @@ impl Number {
     pub fn for_each_parameter(&self, visit: &mut dyn FnMut(usize)) {
         match self {
             Number::Constant(_) => {}
-            Number::Parameter(index) => visit(*index),
+            Number::Parameter(index) | Number::OverTime { input: index, .. } => visit(*index),
             Number::Negative(a) | Number::SquareRoot(a) | Number::Sine(a) | Number::Cosine(a) => {
                 a.for_each_parameter(visit)
             }
@@ -156,6 +164,7 @@ impl Number {
         match self {
             Number::Constant(value) => Number::Constant(*value),
             Number::Parameter(index) => by(*index),
+            Number::OverTime { .. } => self.clone(),
             Number::Negative(a) => Number::negative(of(a)),
             Number::Sum(a, b) => Number::sum(of(a), of(b)),
             Number::Difference(a, b) => Number::difference(of(a), of(b)),
@@ -168,11 +177,12 @@ impl Number {
         }
     }
 
-    /// Value at the given parameters (SI), indexed as in [`Model::parameters`](super::Model::parameters).
+    /// Value at the given parameters (SI), indexed as in [`Model::parameters`](super::Model::parameters). An input over
+    /// time has that of its parameter.
     pub fn value(&self, parameters: &[f64]) -> f64 {
         match self {
             Number::Constant(value) => *value,
-            Number::Parameter(index) => parameters[*index],
+            Number::Parameter(index) | Number::OverTime { input: index, .. } => parameters[*index],
             Number::Negative(a) => -a.value(parameters),
             Number::Sum(a, b) => a.value(parameters) + b.value(parameters),
             Number::Difference(a, b) => a.value(parameters) - b.value(parameters),

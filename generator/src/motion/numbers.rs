@@ -22,6 +22,10 @@ pub fn arithmetic<'g>(
     match number {
         Number::Constant(value) => graph.constant(*value),
         Number::Parameter(index) => indexed(*index),
+        Number::OverTime { curve, .. } => {
+            let time = graph.symbol(Symbol::Time);
+            graph.call(Function::Curve(*curve as u32), &[time])
+        }
         Number::Negative(a) => -of(a),
         Number::Sum(a, b) => of(a) + of(b),
         Number::Difference(a, b) => of(a) - of(b),

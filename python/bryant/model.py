@@ -1,0 +1,255 @@
+"""Models: their equations at states, runs, studies, gradients."""
+
+import json
+import os
+import tempfile
+
+import numpy as np
+
+from . import _bryant
+from ._command import call, call_json
+from .run import Run
+from .study import Study
+
+
+def load(model):
+    """Loads a model: a bundled one by name, a file in YAML or URDF by path, or a text of either.
+
+    Raises Error with every problem of the description, its place and what to do.
+    """
+    text = os.fspath(model)
+    if "\n" in text:
+        folder = tempfile.TemporaryDirectory(prefix="bryant-")
+        ending = "urdf" if text.lstrip().startswith("<") else "yaml"
+        path = os.path.join(folder.name, f"model.{ending}")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        loaded = Model(path)
+        loaded._folder = folder
+    else:
+        loaded = Model(text)
+    return loaded
+
+
+class Named:
+    """Names in the order of the columns of an array, and their units."""
+
+    def __init__(self, pairs):
+        self.names = [name for name, _ in pairs]
+        self.units = dict(pairs)
+
+    def __len__(self):
+        return len(self.names)
+
+    def __iter__(self):
+        return iter(self.names)
+
+    def __getitem__(self, index):
+        return self.names[index]
+
+    def index(self, name):
+        """The column of a name."""
+        try:
+            return self.names.index(name)
+        except ValueError:
+            raise KeyError(f"there is no {name}; there are {', '.join(self.names)}") from None
+
+    def __repr__(self):
+        return "\n".join(f"{name} [{self.units[name]}]" for name in self.names)
+
+
+class Model(_bryant.Model):
+    """The equations of motion of one mechanism, as machine code.
+
+    q, v are arrays of one state (n,) or of many (states, n), a row each; many go through the registers of the
+    processor side by side, without the lock of Python. u has the inputs of the model, or the parameters that `vary`
+    names, in the same way. `out` is an array for the results; `threads` is a number of threads.
+    States of the same model may be evaluated by several threads of Python at once; all give the same bits.
+    """
+
+    def __new__(cls, path):
+        made = super().__new__(cls, path)
+        made.path = path
+        made.coordinates, made.velocities, made.auxiliaries, made.memory = map(Named, made.state)
+        made.outputs_of = Named(made.outputs_named)
+        named = made.parameters_named
+        made.inputs = Named([(name, unit) for name, unit, _, _, _, given in named if given])
+        made.input_limits = np.array([[low, high] for _, _, _, low, high, given in named if given]).reshape(-1, 2)
+        made._parameter_names = Named([(name, unit) for name, unit, *_ in named])
+        made._folder = None
+        return made
+
+    def __repr__(self):
+        return (
+            f"<bryant model {self.name}: {len(self.velocities)} degrees of freedom, "
+            f"{len(self.inputs)} inputs, {self.arithmetic}>"
+        )
+
+    # -- parameters
+
+    @property
+    def parameters(self):
+        """Parameters [SI], inputs among them, by name. Assign a dictionary to change some of them."""
+        return dict(zip(self._parameter_names, self.values))
+
+    @parameters.setter
+    def parameters(self, values):
+        new = list(self.values)
+        for name, value in values.items():
+            new[self._parameter_names.index(name)] = float(value)
+        self.values = new
+
+    # -- states
+
+    def start(self):
+        """q and v with which a run begins."""
+        q, v, _, _ = self.begin()
+        return np.array(q), np.array(v)
+
+    def rates(self, q, v, u=None, **options):
+        """The rates of q, v and of the states of force laws."""
+        return self.evaluate("rates", q, v, u, **options)
+
+    def mass_matrix(self, q, u=None, **options):
+        """S [SI]: (n, n) for one state, (states, n, n) for many."""
+        return self.evaluate("mass_matrix", q, None, u, **options)
+
+    def bias(self, q, v, u=None, **options):
+        """−r_s: centrifugal, Coriolis and gyroscopic forces, without gravity, which is in `applied_forces`."""
+        return -self.evaluate("velocity_forces", q, v, u, **options)
+
+    def applied_forces(self, q, v, u=None, **options):
+        """r_k: gravity, motors, joints, contacts, and all other forces, for each velocity."""
+        return self.evaluate("applied_forces", q, v, u, **options)
+
+    def outputs(self, q, v, u=None, **options):
+        """The outputs of the model, in the order of `outputs_of`."""
+        return self.evaluate("outputs", q, v, u, **options)
+
+    def kinetic_energy(self, q, v, u=None, **options):
+        """The kinetic energy [J]."""
+        return self.evaluate("kinetic_energy", q, v, u, **options)
+
+    # -- motions
+
+    def rollout(self, q, v, u=None, *, dt, steps=None, parts=1, linear=False, outputs=False, states=None, t=0.0, vary=None, out=None, threads=1):
+        """Steps of length `dt` [s] from one state or from many, by the classical Runge–Kutta method.
+
+        u: (steps, inputs), or (states, steps, inputs): held over each step, or with `linear` going from one to the next,
+        one more than there are steps. Each step is computed in `parts`.
+        Returns the states (q, v, then those of force laws) after each step, (states, steps, length), or the outputs.
+        Steps pass over events; `simulation` does not.
+        """
+        q = np.ascontiguousarray(q, dtype=float)
+        if u is not None:
+            width = len(self.inputs) if vary is None else len(vary)
+            u = np.ascontiguousarray(u, dtype=float)
+            shape = q.shape[:-1] + u.shape[q.ndim - 1 :]
+            if u.ndim != q.ndim + 1 or u.shape[-1] != width or u.shape != shape:
+                raise ValueError(f"u must have the shape {q.shape[:-1]} + (steps, {width}), and has {u.shape}")
+            given = u.shape[-2] - (1 if linear else 0)
+            if steps not in (None, given):
+                raise ValueError(f"u has the inputs of {given} steps, not of {steps}")
+            steps = given
+        if steps is None:
+            raise ValueError("without inputs, the number of steps must be given")
+        return self.march(q, v, dt, steps, u, states, t, parts, linear, outputs, vary, out, threads)
+
+    def run(self, set=None, *, quiet=True, **options):
+        """A run with error control, events and checks, as `bryant run` does it. Options are those of the command, with
+        `_` for `-`: accuracy=1e-3, duration="80 ms", every="0.1 ms", method="rodas5", response=["HIC15 of head"],
+        criteria="FMVSS 208, Hybrid III 50M".
+
+        Raises Error if the run fails or cannot be trusted; `error.run` then has what was computed.
+        """
+        return Run._of(self, dict(set=self._changed(set), **options))
+
+    def simulation(self, state=None, *, t=0.0, tolerance=1e-7):
+        """A run that is advanced from time to time, with inputs that change between: see Simulation."""
+        return Simulation(self, state, t, tolerance)
+
+    def sweep(self, parameters, *, responses, runs=None, design="sobol", seed=0, fixed=None, accuracy=None, duration=None, sampling=None, **options):
+        """A study: many runs with other parameters, as `bryant sweep` does it.
+
+        parameters: {"slack": (0, 0.06)}, {"slack": ("0 mm", "60 mm")}, or a dictionary as in a study file;
+        responses: ["HIC15 of head accelerometer"], or dictionaries as in a study file.
+        """
+        fixed = self._changed(fixed)
+        run = {"accuracy": accuracy, "duration": duration, "sampling": sampling}
+        return Study._of(self, parameters, responses, runs, design, seed, fixed, run, options)
+
+    def gradient(self, of, wrt=None, *, set=None, **options):
+        """Derivatives of responses of a run with respect to parameters, exact: {response: {parameter: derivative}} [SI]."""
+        of = [of] if isinstance(of, str) else list(of)
+        wrt = None if wrt is None else ",".join([wrt] if isinstance(wrt, str) else wrt)
+        found, _ = call_json("gradient", self.path, of=of, wrt=wrt, set=self._changed(set), units="SI", **options)
+        return {
+            one["response"]: {of["name"]: of["derivative"] for of in one["parameters"]} for one in found["responses"]
+        }
+
+    def settle(self, **options):
+        """A state of rest, as `bryant settle` finds it: a dictionary of what it prints."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "rest.json")
+            call("settle", self.path, output=path, set=self._changed(None), **options)
+            with open(path, encoding="utf-8") as file:
+                return json.load(file)
+
+    def _changed(self, new):
+        """Values for commands: those of the model that are not the defaults, and these."""
+        changed = {
+            name: now
+            for (name, _, default, *_), now in zip(self.parameters_named, self.values)
+            if now != default
+        }
+        changed.update(new or {})
+        return changed
+
+
+class Simulation:
+    """A run with error control that is advanced from time to time; inputs are held between.
+
+        simulation = m.simulation()
+        while simulation.time < 1:
+            torque = -80 * simulation.q[0] - 4 * simulation.v[0]
+            simulation.advance(simulation.time + 1e-3, [torque])
+
+    time [s], q, v, state (all of it) and outputs are those reached. Contacts, stops and events act within advances.
+    """
+
+    def __init__(self, model, state, t, tolerance):
+        self.model = model
+        if isinstance(state, tuple):
+            q, v = state
+            _, _, z, m = model.begin()
+            state = np.concatenate([np.asarray(part, dtype=float) for part in (q, v, z, m)])
+        self._run = _bryant.Simulation(model, state, t, tolerance)
+        self._reach(t, None)
+
+    def _reach(self, t, u):
+        self.time, self.state, self.outputs, self.steps = self._run.advance(float(t), u)
+        n = len(self.model.coordinates)
+        self.q, self.v = self.state[:n], self.state[n : n + len(self.model.velocities)]
+
+    def advance(self, t, u=None):
+        """Sets the inputs, if any are given, and advances to the time t [s]. Returns the outputs then.
+
+        Inputs out of their limits are refused with an Error, and nothing has changed."""
+        self._reach(t, u)
+        return self.outputs
+
+    def __getitem__(self, output):
+        return self.outputs[self.model.outputs_of.index(output)]
+
+    def finish(self):
+        """Ends the run. Raises Error if it cannot be trusted: energy that is missing, contacts that were missed."""
+        doubts = self._run.finish()
+        if doubts:
+            raise _bryant.Error("\n".join(doubts))
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        if kind is None:
+            self.finish()

@@ -1,0 +1,396 @@
+//! A model at many states, as arrays.
+
+use crate::arrays::{Array, Filled};
+use crate::wrong;
+use bryant_engine::Engine;
+use bryant_engine::batch::{Batch, Hold, Rollout, Rows, Wanted};
+use bryant_generator::Config;
+use bryant_runtime::{Info, Section};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+
+/// Number of rows from which other threads of Python may run meanwhile. For fewer, waiting for them would take longer than
+/// the rows do.
+const MANY: usize = 8;
+
+/// The equations of a model as machine code.
+#[pyclass(frozen, subclass)]
+pub struct Model {
+    engine: Engine,
+    /// The values of all parameters [SI].
+    parameters: Mutex<Vec<f64>>,
+    /// Models that no thread uses now, each with its number of threads. Calls on several threads of Python take one each.
+    idle: Mutex<Vec<(usize, Batch)>>,
+}
+
+/// A name, a unit, a default, the limits, and whether it is an input.
+type Parameter = (&'static str, &'static str, f64, f64, f64, bool);
+
+#[pymethods]
+impl Model {
+    /// The model of a file: YAML or URDF; or a bundled one, by name.
+    #[new]
+    fn new(py: Python<'_>, path: &str) -> PyResult<Self> {
+        py.detach(|| {
+            let model = match bryant::bundled::find(path) {
+                Some(bundled) => bryant::bundled::model(bundled).map_err(wrong)?,
+                None => bryant_generator::read(Path::new(path)).map_err(wrong)?.0,
+            };
+            let engine = Engine::of(&model, &Config::new()).map_err(wrong)?;
+            let parameters = engine.info().parameters.iter().map(|of| of.default);
+            Ok(Model {
+                parameters: Mutex::new(parameters.collect()),
+                idle: Mutex::default(),
+                engine,
+            })
+        })
+    }
+
+    #[getter]
+    fn name(&self) -> &'static str {
+        self.engine.info().name
+    }
+
+    #[getter]
+    fn digest(&self) -> &'static str {
+        self.engine.info().digest
+    }
+
+    #[getter]
+    fn arithmetic(&self) -> &'static str {
+        self.engine.arithmetic()
+    }
+
+    /// Names and units of q, v, z and m.
+    #[getter]
+    fn state(&self) -> [Vec<(&'static str, &'static str)>; 4] {
+        let info = self.engine.info();
+        let mut from = 0;
+        [
+            info.coordinates,
+            info.velocities,
+            info.auxiliaries,
+            info.memory,
+        ]
+        .map(|names| {
+            let units = (from..).map(|index| info.state_unit(index).unwrap_or(""));
+            from += names.len();
+            names.iter().copied().zip(units).collect()
+        })
+    }
+
+    #[getter]
+    fn outputs_named(&self) -> Vec<(&'static str, &'static str)> {
+        let outputs = self.engine.info().outputs.iter();
+        outputs.map(|of| (of.name, of.unit)).collect()
+    }
+
+    #[getter]
+    fn parameters_named(&self) -> Vec<Parameter> {
+        let parameters = self.engine.info().parameters.iter();
+        let facts = parameters.map(|of| (of.name, of.unit, of.default, of.min, of.max, of.input));
+        facts.collect()
+    }
+
+    /// The values of all parameters [SI].
+    #[getter]
+    fn values(&self) -> Vec<f64> {
+        self.present().clone()
+    }
+
+    /// Sets all parameters [SI].
+    #[setter]
+    fn set_values(&self, values: Vec<f64>) -> PyResult<()> {
+        let mut batch = self.take(1);
+        let set = batch.set_parameters(&values).map_err(wrong);
+        if set.is_ok() {
+            *self.present() = values;
+            // the others have the old values
+            self.idle
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .clear();
+        }
+        self.put_back(1, batch);
+        set
+    }
+
+    /// q, v, z and m with which a run begins.
+    fn begin(&self) -> [Vec<f64>; 4] {
+        let mut model = self.engine.in_double();
+        model.set_parameters(&self.present());
+        let info = self.engine.info();
+        let mut y = vec![0.0; info.state_length()];
+        model.initial_state(&mut y);
+        let mut rest = &y[..];
+        [
+            info.coordinates,
+            info.velocities,
+            info.auxiliaries,
+            info.memory,
+        ]
+        .map(|names| {
+            let (mine, behind) = rest.split_at(names.len());
+            rest = behind;
+            mine.to_vec()
+        })
+    }
+
+    /// Accelerations v̇ at one state (n,) or at many (states, n). u: the inputs of the model, or the parameters that `vary`
+    /// names, for each. states: z and m of force laws, where the model has any; as at the start of a run if left out.
+    /// out: an array for the results. threads: a number of threads.
+    #[pyo3(signature = (q, v, u=None, states=None, t=0.0, vary=None, out=None, threads=1))]
+    #[expect(clippy::too_many_arguments, reason = "those of a function of Python")]
+    fn accelerations<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        u: Option<&Bound<'py, PyAny>>,
+        states: Option<&Bound<'py, PyAny>>,
+        t: f64,
+        vary: Option<Vec<String>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let what = "accelerations";
+        self.evaluate(py, what, q, Some(v), u, states, t, vary, out, threads)
+    }
+
+    /// Evaluates `what` at rows of states: see `accelerations`.
+    #[pyo3(signature = (what, q, v, u=None, states=None, t=0.0, vary=None, out=None, threads=1))]
+    #[expect(clippy::too_many_arguments, reason = "those of a function of Python")]
+    fn evaluate<'py>(
+        &self,
+        py: Python<'py>,
+        what: &str,
+        q: &Bound<'py, PyAny>,
+        v: Option<&Bound<'py, PyAny>>,
+        u: Option<&Bound<'py, PyAny>>,
+        states: Option<&Bound<'py, PyAny>>,
+        t: f64,
+        vary: Option<Vec<String>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let wanted = wanted(what)?;
+        let info = self.engine.info();
+        let given = Given::of(info, q, v, u, states)?;
+        let vary = vary.map(|names| self.indices(&names)).transpose()?;
+        let mut batch = self.take(threads);
+        if let Some(vary) = &vary {
+            batch.vary(vary);
+        }
+        let length = batch.length(wanted);
+        let (matrix, freedoms) = (wanted == Wanted::MassMatrix, info.velocities.len());
+        let mut shape = given.leading.to_vec();
+        match (matrix, wanted) {
+            (true, _) => shape.extend([freedoms, freedoms]),
+            (_, Wanted::Section(Section::KineticEnergy)) => {}
+            _ => shape.push(length),
+        }
+        let mut filled = Filled::new(py, out, &shape)?;
+        let results = filled.room.numbers_mut()?;
+        let mut work = || batch.evaluate(wanted, &given.rows(t), results);
+        let done = match given.count >= MANY {
+            true => py.detach(work),
+            false => work(),
+        };
+        if vary.is_none() {
+            self.put_back(threads, batch);
+        }
+        done.map_err(wrong)?;
+        Ok(filled.array)
+    }
+
+    /// Takes `steps` steps from rows of states. Returns the states after each step, or its outputs.
+    #[pyo3(signature = (q, v, dt, steps, u=None, states=None, t=0.0, parts=1, linear=false, outputs=false, vary=None, out=None, threads=1))]
+    #[expect(clippy::too_many_arguments, reason = "those of a function of Python")]
+    fn march<'py>(
+        &self,
+        py: Python<'py>,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        dt: f64,
+        steps: usize,
+        u: Option<&Bound<'py, PyAny>>,
+        states: Option<&Bound<'py, PyAny>>,
+        t: f64,
+        parts: usize,
+        linear: bool,
+        outputs: bool,
+        vary: Option<Vec<String>>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if !(dt.is_finite() && dt > 0.0) || parts == 0 {
+            return Err(PyValueError::new_err(
+                "dt must be positive and finite, and parts at least 1",
+            ));
+        }
+        let info = self.engine.info();
+        let given = Given::of(info, q, Some(v), u, states)?;
+        let rollout = Rollout {
+            step: dt,
+            steps,
+            parts,
+            hold: if linear { Hold::Linear } else { Hold::Constant },
+        };
+        let length = match outputs {
+            true => info.outputs.len(),
+            false => info.state_length(),
+        };
+        let shape = [&given.leading[..], &[steps, length]].concat();
+        let mut filled = Filled::new(py, out, &shape)?;
+        let results = filled.room.numbers_mut()?;
+        let (to_states, to_outputs) = match outputs {
+            true => (&mut [][..], results),
+            false => (results, &mut [][..]),
+        };
+        let vary = vary.map(|names| self.indices(&names)).transpose()?;
+        let mut batch = self.take(threads);
+        if let Some(vary) = &vary {
+            batch.vary(vary);
+        }
+        let done = py.detach(|| batch.rollout(&rollout, &given.rows(t), to_states, to_outputs));
+        if vary.is_none() {
+            self.put_back(threads, batch);
+        }
+        done.map_err(wrong)?;
+        Ok(filled.array)
+    }
+}
+
+impl Model {
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    pub fn present(&self) -> std::sync::MutexGuard<'_, Vec<f64>> {
+        self.parameters
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Indices of parameters.
+    fn indices(&self, names: &[String]) -> PyResult<Vec<usize>> {
+        let parameters = self.engine.info().parameters;
+        let place = |name: &String| {
+            let found = parameters.iter().position(|of| of.name == name);
+            found.ok_or_else(|| {
+                let all: Vec<&str> = parameters.iter().map(|of| of.name).collect();
+                PyValueError::new_err(format!(
+                    "there is no parameter {name}; there are {}",
+                    all.join(", ")
+                ))
+            })
+        };
+        names.iter().map(place).collect()
+    }
+
+    /// A batch for so many threads.
+    fn take(&self, threads: usize) -> Batch {
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        match idle.iter().position(|(of, _)| *of == threads) {
+            Some(found) => idle.swap_remove(found).1,
+            None => {
+                drop(idle);
+                let mut batch = self.engine.batch(threads);
+                // they were accepted before
+                let _ = batch.set_parameters(&self.present());
+                batch
+            }
+        }
+    }
+
+    fn put_back(&self, threads: usize, batch: Batch) {
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        idle.push((threads, batch));
+    }
+}
+
+/// The arrays of a call.
+struct Given {
+    q: Array,
+    v: Option<Array>,
+    u: Option<Array>,
+    states: Option<Array>,
+    /// v where it was not given.
+    zeros: Vec<f64>,
+    /// The dimensions before the last one: none for one state, one for several.
+    leading: Vec<usize>,
+    count: usize,
+}
+
+impl Given {
+    fn of(
+        info: &Info,
+        q: &Bound<'_, PyAny>,
+        v: Option<&Bound<'_, PyAny>>,
+        u: Option<&Bound<'_, PyAny>>,
+        states: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let (q, v) = (Array::of(q)?, v.map(Array::of).transpose()?);
+        let leading = match q.shape() {
+            [length] if *length == info.coordinates.len() => vec![],
+            [count, length] if *length == info.coordinates.len() => vec![*count],
+            other => {
+                let n = info.coordinates.len();
+                return Err(PyValueError::new_err(format!(
+                    "q must have the shape ({n},) or (states, {n}), and has {other:?}: the coordinates are {}",
+                    info.coordinates.join(", ")
+                )));
+            }
+        };
+        let count = leading.first().copied().unwrap_or(1);
+        if let Some(v) = &v {
+            let expected = [&leading[..], &[info.velocities.len()]].concat();
+            if v.shape() != expected {
+                return Err(PyValueError::new_err(format!(
+                    "v must have the shape {expected:?}, as q has, and has {:?}: the velocities are {}",
+                    v.shape(),
+                    info.velocities.join(", ")
+                )));
+            }
+        }
+        Ok(Given {
+            zeros: match v {
+                Some(_) => Vec::new(),
+                None => vec![0.0; count * info.velocities.len()],
+            },
+            q,
+            v,
+            u: u.map(Array::of).transpose()?,
+            states: states.map(Array::of).transpose()?,
+            leading,
+            count,
+        })
+    }
+
+    fn rows(&self, time: f64) -> Rows<'_> {
+        Rows {
+            time,
+            coordinates: self.q.numbers(),
+            velocities: self.v.as_ref().map_or(&self.zeros, Array::numbers),
+            states: self.states.as_ref().map_or(&[], Array::numbers),
+            inputs: self.u.as_ref().map_or(&[], Array::numbers),
+        }
+    }
+}
+
+fn wanted(what: &str) -> PyResult<Wanted> {
+    Ok(match what {
+        "accelerations" => Wanted::Accelerations,
+        "rates" => Wanted::Rates,
+        "mass_matrix" => Wanted::MassMatrix,
+        "velocity_forces" => Wanted::VelocityForces,
+        "applied_forces" => Wanted::AppliedForces,
+        _ => {
+            let section = Section::ALL.iter().find(|section| section.name() == what);
+            let unknown = || PyValueError::new_err(format!("there is no {what}"));
+            Wanted::Section(*section.ok_or_else(unknown)?)
+        }
+    })
+}
