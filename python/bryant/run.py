@@ -29,7 +29,7 @@ class Run(Mapping):
         self.units = {column["name"]: column["unit"] for column in columns}
         self.peaks, self.energy, self.parameters = found["peaks"], found["energy"], found["parameters"]
         self.accuracy, self.doubts, self.notes = found["accuracy"], found["doubts"], found["notes"]
-        self.responses = {one["name"]: one["value"] for one in found["responses"]}
+        self.responses = {one["response"]: one["value"] for one in found["responses"]}
         self.criteria = (found.get("criteria") or {}).get("criteria")
         self.statistics = found["report"]
 

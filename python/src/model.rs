@@ -191,6 +191,11 @@ impl Model {
             (_, Wanted::Section(Section::KineticEnergy)) => {}
             _ => shape.push(length),
         }
+        // one number is that of an array of one
+        let alone = shape.is_empty();
+        if alone {
+            shape.push(1);
+        }
         let mut filled = Filled::new(py, out, &shape)?;
         let results = filled.room.numbers_mut()?;
         let mut work = || batch.evaluate(wanted, &given.rows(t), results);
@@ -202,7 +207,10 @@ impl Model {
             self.put_back(threads, batch);
         }
         done.map_err(wrong)?;
-        Ok(filled.array)
+        match alone {
+            true => filled.array.get_item(0),
+            false => Ok(filled.array),
+        }
     }
 
     /// Takes `steps` steps from rows of states. Returns the states after each step, or its outputs.

@@ -12,6 +12,7 @@ mod degenerate;
 mod formulas;
 mod functions;
 mod grazing;
+mod input_files;
 mod judged;
 mod last_screen;
 #[cfg(unix)]
