@@ -83,7 +83,13 @@ pub fn read_model(path: &Path) -> Result<ModelText, Diagnostics> {
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("urdf"));
     match is_named_urdf || urdf::is_xml(&text) {
-        true => ModelText::of_urdf(name, text, &urdf::Options::default()),
+        true => {
+            let options = urdf::Options {
+                inputs: true,
+                ..urdf::Options::default()
+            };
+            ModelText::of_urdf(name, text, &options)
+        }
         false => Ok(ModelText {
             name,
             text,

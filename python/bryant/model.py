@@ -12,22 +12,28 @@ from .run import Run
 from .study import Study
 
 
-def load(model):
+def load(model, **options):
     """Loads a model: a bundled one by name, a file in YAML or URDF by path, or a text of either.
 
+    Options are those of `bryant import`, for a robot in URDF: base="free", stops=1e4, right_angles=True, uncouple=True,
+    no_inputs=True, repair_inertias=True.
     Raises Error with every problem of the description, its place and what to do.
     """
-    text = os.fspath(model)
-    if "\n" in text:
+    path, folder = os.fspath(model), None
+    if "\n" in path or options:
         folder = tempfile.TemporaryDirectory(prefix="bryant-")
-        ending = "urdf" if text.lstrip().startswith("<") else "yaml"
-        path = os.path.join(folder.name, f"model.{ending}")
+    if "\n" in path:
+        ending = "urdf" if path.lstrip().startswith("<") else "yaml"
+        text, path = path, os.path.join(folder.name, f"model.{ending}")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-        loaded = Model(path)
-        loaded._folder = folder
-    else:
-        loaded = Model(text)
+    if options:
+        imported = os.path.join(folder.name, "imported.yaml")
+        call("import", path, out=imported, **options)
+        path = imported
+    loaded = Model(path)
+    # a folder lives as long as its model
+    loaded._folder = folder
     return loaded
 
 

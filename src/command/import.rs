@@ -16,7 +16,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Links become elements and keep their names, with full inertia tensors; joints become joints with their axes; damping and friction
-become joint forces, <mimic> becomes `follows`, rotors of transmissions become `armature`. Links without mass that a fixed joint holds become points. What is
+become joint forces, each joint gets a motor with an input, <mimic> becomes `follows`, rotors of transmissions become `armature`. Links without mass that a fixed joint holds become points. What is
 not taken over, such as shapes and sensors, is listed with its lines. Gravity of 9.81 m/s2 along -z is added.
 
 With --repair-inertias a file without masses can be tried out: links get stand-in masses, joints that move no mass become fixed, tensors of no body become
@@ -52,6 +52,10 @@ pub struct Arguments {
     /// Let joints that follow others (<mimic>) move by themselves
     #[arg(long)]
     uncouple: bool,
+
+    /// Leave the joints without motors. Otherwise each has one whose torque or force is an input, within its limit of effort
+    #[arg(long)]
+    no_inputs: bool,
 
     /// Replace masses and inertias that no mechanism can have, and list each change
     #[arg(long)]
@@ -90,6 +94,7 @@ impl Arguments {
             right_angles: self.right_angles,
             stops: self.stops,
             uncouple: self.uncouple,
+            inputs: !self.no_inputs,
             repair_inertias: self.repair_inertias.then_some(read::check_str),
         };
         let imported = ModelText::of_urdf(name, text, &options).map_err(Error::Model)?;

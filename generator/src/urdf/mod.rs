@@ -47,6 +47,9 @@ pub struct Options {
     pub stops: Option<f64>,
     /// Whether joints that follow others (`<mimic>`) move independently.
     pub uncouple: bool,
+    /// Whether each joint gets a motor whose torque or force is an input, `JOINT_torque` or `JOINT_force`, within the
+    /// limit of effort. Joints that follow others, planar and floating joints get none.
+    pub inputs: bool,
     /// Masses and tensors that no mechanism can have are replaced if this function is given, which reads the text of a
     /// model ([`check_str`](crate::read::check_str)); each change is a note.
     pub repair_inertias: Option<CheckText>,
@@ -248,12 +251,16 @@ fn of_limits(robot: &Robot, options: &Options) -> Vec<String> {
             limits.range[0]
         ));
     }
-    if limited
-        .iter()
-        .any(|(_, l)| l.effort > 0.0 || l.velocity > 0.0)
-    {
-        notes.push("the limits of effort and speed of joints do not act; they stand in the model as comments".to_owned());
-    }
+    let any = |limit: fn(&Limits) -> f64| limited.iter().any(|(_, of)| limit(of) > 0.0);
+    let left_out = match (!options.inputs && any(|of| of.effort), any(|of| of.velocity)) {
+        (true, true) => "effort and speed",
+        (true, false) => "effort",
+        (false, true) => "speed",
+        (false, false) => return notes,
+    };
+    notes.push(format!(
+        "the limits of {left_out} of joints do not act; they stand in the model as comments"
+    ));
     notes
 }
 

@@ -116,8 +116,14 @@ fn stop(limits: &Limits, stiffness: f64) -> String {
     format!(", stop: {{ {ends}stiffness: {} }}", number(stiffness))
 }
 
-/// A comment on the limits of a joint: those of its coordinate unless they are stops, and those of its motor. Zeros are no limits of a motor.
-fn limits(joint: &Joint, are_stops: bool) -> Option<String> {
+/// Whether a number is a limit of a motor: zeros are none.
+fn is_limit(value: f64) -> bool {
+    value > 0.0 && value.is_finite()
+}
+
+/// A comment on the limits of a joint: those of its coordinate unless they are stops, and those of its motor unless it is
+/// an input.
+fn limits(joint: &Joint, are_stops: bool, is_input: bool) -> Option<String> {
     let limits = joint.limits?;
     let (unit, effort) = match joint.kind {
         Kind::Prismatic => ("m", "N"),
@@ -132,8 +138,7 @@ fn limits(joint: &Joint, are_stops: bool) -> Option<String> {
             number(to)
         ));
     }
-    let is_limit = |value: f64| value > 0.0 && value.is_finite();
-    if is_limit(limits.effort) {
+    if !is_input && is_limit(limits.effort) {
         parts.push(format!(
             "has a motor of at most {} {effort}",
             number(limits.effort)
@@ -220,6 +225,7 @@ impl Writer<'_> {
             "model: {}\ndimension: 3",
             word(&self.robot.name, '-', "robot")
         )?;
+        self.inputs(options, text)?;
         let at_rest = self.meshes(None, [0.0; 3]);
         if !at_rest.is_empty() {
             writeln!(text, "mesh:")?;
@@ -269,6 +275,52 @@ impl Writer<'_> {
         }
         writeln!(text, "run: {{ duration: 1 s, every: 10 ms }}")?;
         self.frames(text)
+    }
+
+    /// The inputs of all motors, with the limits of their effort.
+    fn inputs(&self, options: &Options, text: &mut String) -> std::fmt::Result {
+        let elements = self.forest.systems.iter().flat_map(|system| &system.elements);
+        let freedoms = elements.flat_map(|element| match &element.carried {
+            Carried::Joint(freedoms) => &freedoms[..],
+            Carried::Weld | Carried::Freely => &[],
+        });
+        let mut first = true;
+        for freedom in freedoms {
+            let Some(name) = self.input(freedom, options) else {
+                continue;
+            };
+            if std::mem::take(&mut first) {
+                writeln!(text, "inputs:")?;
+            }
+            let joint = &self.robot.joints[freedom.joint];
+            self.origin(text, joint.place);
+            let unit = if freedom.slides { "N" } else { "N*m" };
+            let effort = joint.limits.map_or(0.0, |limits| limits.effort);
+            match is_limit(effort) {
+                true => {
+                    let most = number(effort);
+                    writeln!(
+                        text,
+                        "  {name}: {{ value: 0 {unit}, min: -{most} {unit}, max: {most} {unit} }}"
+                    )?;
+                }
+                false => writeln!(text, "  {name}: 0 {unit}")?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The name of the input of a motor; `None` if the freedom has no motor.
+    fn input(&self, freedom: &Freedom, options: &Options) -> Option<String> {
+        let joint = &self.robot.joints[freedom.joint];
+        let moves = matches!(
+            joint.kind,
+            Kind::Revolute | Kind::Continuous | Kind::Prismatic
+        );
+        let follows = joint.mimic.is_some() && !options.uncouple;
+        let what = if freedom.slides { "force" } else { "torque" };
+        (options.inputs && moves && !follows)
+            .then(|| format!("{}_{what}", self.joints.given[freedom.joint]))
     }
 
     /// Outputs for the coordinates of a joint, by the names of the joints; for a free root, its position.
@@ -530,6 +582,10 @@ impl Writer<'_> {
             if let (Some(limits), Some(stiffness)) = (joint.limits, options.stops) {
                 law += &stop(&limits, stiffness);
             }
+            let input = self.input(freedom, options);
+            if let Some(input) = &input {
+                write!(law, ", motor: {input}")?;
+            }
             let written = format!(
                 "joint: {}/{}",
                 self.system(system),
@@ -543,7 +599,7 @@ impl Writer<'_> {
                 self.origin(text, joint.place);
                 writeln!(text, "  - {{ {written}{which}{law} }}")?;
             }
-            if let Some(comment) = limits(joint, options.stops.is_some()) {
+            if let Some(comment) = limits(joint, options.stops.is_some(), input.is_some()) {
                 writeln!(text, "  # {} {comment}", self.joints.given[freedom.joint])?;
             }
         }

@@ -661,6 +661,40 @@ fn joints_that_follow_others_follow() {
 }
 
 #[test]
+fn motors_are_inputs_within_the_limits_of_effort() {
+    let with = |inputs, uncouple| Options {
+        inputs,
+        uncouple,
+        ..Options::default()
+    };
+    // a hinge without limits, and a slider that follows it
+    let mimic = "<mimic joint=\"hinge\" multiplier=\"-0.1\"/>";
+    let text = joint("type=\"prismatic\"", &format!("{LIMIT}{mimic}"));
+    let inputs = |options| {
+        let inputs = read(&imported(&text, &options).yaml).parameters;
+        assert!(inputs.iter().all(|of| of.input && of.default == 0.0));
+        let limits = inputs.into_iter().map(|of| (of.name, of.unit, of.min, of.max));
+        limits.collect::<Vec<_>>()
+    };
+    let torque = || ("hinge_torque".to_owned(), "N*m".to_owned(), None, None);
+    assert_eq!(inputs(with(true, false)), [torque()]);
+    let force = ("joint_force".to_owned(), "N".to_owned(), Some(-10.0), Some(10.0));
+    let both = inputs(with(true, true));
+    assert_eq!(both[0], torque());
+    assert_eq!((both.len(), &both[1].1, both[1].2, both[1].3), (2, &force.1, force.2, force.3));
+    assert!(both[1].0.ends_with("_force"));
+    assert_eq!(inputs(with(false, true)), []);
+    // an arm of 2 kg at 0.1 m about x: J = 0.01, and gravity along z turns it by nothing
+    let yaml = imported(&arm("", "", ""), &with(true, false)).yaml;
+    assert!((driven(&yaml, &[0.5]) - driven(&yaml, &[0.0]) - 50.0).abs() < 1e-12);
+    // limits that act are no comments
+    let limited = arm("", LIMIT, "").replace("continuous", "revolute");
+    let found = imported(&limited, &with(true, false));
+    assert!(found.yaml.contains("min: -10 N*m, max: 10 N*m") && !found.yaml.contains("has a motor"));
+    assert!(found.notes.iter().any(|note| note.contains("the limits of speed of joints do not act")));
+}
+
+#[test]
 fn a_joint_that_follows_and_moves_no_mass_is_left_out() {
     let text = joint("type=\"continuous\"", "<mimic joint=\"hinge\"/>").replace(
         &link("hand", INERTIAL).replace('\n', ""),
@@ -717,13 +751,18 @@ fn notes(text: &str) -> String {
 
 /// The acceleration of a model with one freedom, at rest in its start.
 fn acceleration(yaml: &str) -> f64 {
+    driven(yaml, &[])
+}
+
+/// The acceleration, where the parameters have these values.
+fn driven(yaml: &str, parameters: &[f64]) -> f64 {
     let equations = derive(&read(yaml));
     assert_eq!(equations.velocities.len(), 1, "{yaml}");
     let inputs = Inputs {
         time: 0.0,
         coordinates: &[0.0],
         velocities: &[0.0],
-        parameters: &[],
+        parameters,
         auxiliaries: &[],
         memory: &[],
     };
