@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates, and what belongs to the command but to no library.
-const CRATES: [&str; 9] = [
+const CRATES: [&str; 10] = [
     "generator",
     "runtime",
     "engine",
@@ -18,6 +18,7 @@ const CRATES: [&str; 9] = [
     "picture",
     "table",
     "hard",
+    "python",
     ".",
 ];
 /// A crate may differ by so much from the table.
