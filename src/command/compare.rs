@@ -7,7 +7,7 @@ use crate::criteria::said;
 use crate::quantity;
 use bryant_signal::filter::{Class, Standard, class, class_of_code, filtered};
 use bryant_signal::rating::{RATE, Rating, RatingError, rate};
-use bryant_signal::{Channel, Damaged, NoChannel, Recording, Signal, unit};
+use bryant_signal::{Channel, Damaged, NoChannel, ReadError, Recording, Signal, unit};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use serde_json::json;
 use std::fmt::Write as _;
@@ -260,15 +260,23 @@ impl Arguments {
 
 /// Reads a recording.
 pub(super) fn recording(path: &Path) -> Result<Recording, Error> {
+    of_file(path, Recording::read)
+}
+
+/// Reads a file that must exist.
+pub(super) fn of_file<R>(
+    path: &Path,
+    read: impl FnOnce(&Path) -> Result<R, ReadError>,
+) -> Result<R, Error> {
     if !path.exists() {
         return Err(Error::Input(format!(
             "there is no file {}\n  help: name a table of `bryant run`, or a test in ISO-MME: its folder or its .mme file",
             path.display()
         )));
     }
-    Recording::read(path).map_err(|error| match error {
-        bryant_signal::ReadError::Io { .. } => Error::system(error),
-        bryant_signal::ReadError::Content { .. } => Error::input(error),
+    read(path).map_err(|error| match error {
+        ReadError::Io { .. } => Error::system(error),
+        ReadError::Content { .. } => Error::input(error),
     })
 }
 

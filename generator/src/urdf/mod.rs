@@ -252,7 +252,10 @@ fn of_limits(robot: &Robot, options: &Options) -> Vec<String> {
         ));
     }
     let any = |limit: fn(&Limits) -> f64| limited.iter().any(|(_, of)| limit(of) > 0.0);
-    let left_out = match (!options.inputs && any(|of| of.effort), any(|of| of.velocity)) {
+    let left_out = match (
+        !options.inputs && any(|of| of.effort),
+        any(|of| of.velocity),
+    ) {
         (true, true) => "effort and speed",
         (true, false) => "effort",
         (false, true) => "speed",

@@ -279,7 +279,11 @@ impl Writer<'_> {
 
     /// The inputs of all motors, with the limits of their effort.
     fn inputs(&self, options: &Options, text: &mut String) -> std::fmt::Result {
-        let elements = self.forest.systems.iter().flat_map(|system| &system.elements);
+        let elements = self
+            .forest
+            .systems
+            .iter()
+            .flat_map(|system| &system.elements);
         let freedoms = elements.flat_map(|element| match &element.carried {
             Carried::Joint(freedoms) => &freedoms[..],
             Carried::Weld | Carried::Freely => &[],

@@ -673,15 +673,25 @@ fn motors_are_inputs_within_the_limits_of_effort() {
     let inputs = |options| {
         let inputs = read(&imported(&text, &options).yaml).parameters;
         assert!(inputs.iter().all(|of| of.input && of.default == 0.0));
-        let limits = inputs.into_iter().map(|of| (of.name, of.unit, of.min, of.max));
+        let limits = inputs
+            .into_iter()
+            .map(|of| (of.name, of.unit, of.min, of.max));
         limits.collect::<Vec<_>>()
     };
     let torque = || ("hinge_torque".to_owned(), "N*m".to_owned(), None, None);
     assert_eq!(inputs(with(true, false)), [torque()]);
-    let force = ("joint_force".to_owned(), "N".to_owned(), Some(-10.0), Some(10.0));
+    let force = (
+        "joint_force".to_owned(),
+        "N".to_owned(),
+        Some(-10.0),
+        Some(10.0),
+    );
     let both = inputs(with(true, true));
     assert_eq!(both[0], torque());
-    assert_eq!((both.len(), &both[1].1, both[1].2, both[1].3), (2, &force.1, force.2, force.3));
+    assert_eq!(
+        (both.len(), &both[1].1, both[1].2, both[1].3),
+        (2, &force.1, force.2, force.3)
+    );
     assert!(both[1].0.ends_with("_force"));
     assert_eq!(inputs(with(false, true)), []);
     // an arm of 2 kg at 0.1 m about x: J = 0.01, and gravity along z turns it by nothing
@@ -690,8 +700,15 @@ fn motors_are_inputs_within_the_limits_of_effort() {
     // limits that act are no comments
     let limited = arm("", LIMIT, "").replace("continuous", "revolute");
     let found = imported(&limited, &with(true, false));
-    assert!(found.yaml.contains("min: -10 N*m, max: 10 N*m") && !found.yaml.contains("has a motor"));
-    assert!(found.notes.iter().any(|note| note.contains("the limits of speed of joints do not act")));
+    assert!(
+        found.yaml.contains("min: -10 N*m, max: 10 N*m") && !found.yaml.contains("has a motor")
+    );
+    assert!(
+        found
+            .notes
+            .iter()
+            .any(|note| note.contains("the limits of speed of joints do not act"))
+    );
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Inputs of a run from files: `--input NAME=FILE`.
 
 use super::Error;
-use crate::command::compare::{channel, recording};
+use crate::command::compare::{channel, of_file, recording};
 use bryant_generator::model::{Model, Parameter};
 use bryant_signal::{table, unit};
 use std::path::{Path, PathBuf};
@@ -139,7 +139,7 @@ fn samples(file: &InputFile, name: &str) -> Result<(Vec<f64>, table::Column), Er
     }
     let table::Columns {
         times, mut columns, ..
-    } = table::columns(path).map_err(Error::input)?;
+    } = of_file(path, table::columns)?;
     let named = |name: &str| columns.iter().position(|column| column.name == name);
     let found = match &file.column {
         Some(column) => named(column),
