@@ -204,6 +204,7 @@ impl Scene {
             parameters: &[],
             auxiliaries: &state.z,
             memory: &state.m,
+            accelerations: &[],
         };
         let roots = self.equations.auxiliaries.iter().map(|state| state.next);
         let roots: Vec<_> = roots.collect();

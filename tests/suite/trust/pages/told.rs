@@ -189,6 +189,7 @@ fn a_limiter_pays_out_by_the_stretch_alone() {
             parameters: &[],
             auxiliaries: &state.z,
             memory: &state.m,
+            accelerations: &[],
         };
         let mut memory = scene.equations.memory.iter();
         let next = memory
