@@ -3,6 +3,7 @@
 mod bits;
 mod identities;
 mod pinocchio;
+mod points;
 mod refused;
 mod table;
 

@@ -25,8 +25,10 @@ fn the_page_has_all_functions() {
         let equations = derive_functions(&model, Options::default(), &requests);
         let derived = &equations.functions[0];
         let n = equations.velocities.len();
+        let elements: usize = model.systems.iter().map(|s| s.elements.len()).sum();
         let side = |names: &[String]| match names.len() {
             length if length == n => "n".to_owned(),
+            length if length == 10 * elements => "10 N".to_owned(),
             length => length.to_string(),
         };
         let (rows, columns) = (side(&derived.rows), side(&derived.columns));

@@ -191,6 +191,7 @@ impl Scene {
             v: [body.velocity, body.omega].concat(),
             z: z.to_vec(),
             m: names.map(|name| remembered(name)).collect(),
+            a: Vec::new(),
         }
     }
 
