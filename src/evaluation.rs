@@ -1,9 +1,9 @@
 //! S, r_s, r_k and v̇ at one state, as a run computes them.
 
 use bryant_engine::{Engine, Interpreted};
-use bryant_generator::expression::Function;
+use bryant_generator::expression;
 use bryant_generator::model::Model;
-use bryant_generator::program::{Curve, Method};
+use bryant_generator::program::{self, Curve, Method};
 use bryant_runtime::{Adjustable as _, Dynamics as _};
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +25,9 @@ pub struct State {
     /// Memory of force laws; if none are given, the values at the start of a run.
     #[serde(default)]
     pub m: Vec<f64>,
+    /// Accelerations for functions that need them; if none are given, those of the motion.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub a: Vec<f64>,
 }
 
 /// The equations of motion S v̇ = r_s + r_k at one state.
@@ -45,6 +48,22 @@ pub struct Evaluation {
     pub r_k: Vec<f64>,
     /// v̇.
     pub acceleration: Vec<f64>,
+    /// The functions that were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub functions: Vec<Function>,
+}
+
+/// The values of a function.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Function {
+    /// Its name.
+    pub name: String,
+    /// The names of its rows; a single one may have none.
+    pub rows: Vec<String>,
+    /// The names of its columns; a single one has none.
+    pub columns: Vec<String>,
+    /// The values, by rows.
+    pub values: Vec<Vec<f64>>,
 }
 
 /// A state that does not fit the model.
@@ -80,13 +99,13 @@ pub enum StateError {
     },
     /// A result is not finite, because the state is too far out.
     #[error(
-        "{quantity} of {velocity} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
+        "{quantity} of {of} is {value} at this state\n  help: look for numbers that are too large, angles at a singularity, and curves left beyond their last point"
     )]
     NotFinite {
         /// The quantity that is not finite.
         quantity: &'static str,
-        /// The velocity that it belongs to.
-        velocity: String,
+        /// The velocity or the function that it belongs to.
+        of: String,
         /// Its value.
         value: f64,
     },
@@ -141,6 +160,34 @@ pub fn at(engine: &Engine, parameters: &[f64], state: &State) -> Result<Evaluati
     let acceleration = rates[info.coordinates.len()..][..size].to_vec();
     let vectors = [&r_s[..], &r_k, &acceleration].concat();
     check_finite(&matrix.concat(), &vectors, info.velocities)?;
+    let given = match state.a.is_empty() {
+        true => &acceleration,
+        false => &state.a,
+    };
+    check_length("a", "velocities", given.len(), info.velocities)?;
+    let function = |(index, function): (usize, &program::Function)| {
+        let columns = function.columns.len();
+        let mut values = vec![0.0; function.rows.len() * columns];
+        model.function(index, state.t, &y, given, &mut values);
+        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(StateError::NotFinite {
+                quantity: "a number",
+                of: function.name.clone(),
+                value,
+            });
+        }
+        // zero has no sign
+        let rows = values.chunks(columns.max(1));
+        let rows = rows.map(|row| row.iter().map(|value| value + 0.0).collect());
+        Ok(Function {
+            name: function.name.clone(),
+            rows: function.rows.clone(),
+            columns: function.columns.clone(),
+            values: rows.collect(),
+        })
+    };
+    let functions = engine.functions().iter().enumerate().map(function);
+    let functions = functions.collect::<Result<_, _>>()?;
     Ok(Evaluation {
         state: state.clone(),
         coordinates: owned(info.coordinates),
@@ -149,6 +196,7 @@ pub fn at(engine: &Engine, parameters: &[f64], state: &State) -> Result<Evaluati
         r_s,
         r_k,
         acceleration,
+        functions,
     })
 }
 
@@ -190,7 +238,7 @@ fn check_finite(matrix: &[f64], vectors: &[f64], velocities: &[&str]) -> Result<
         if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
             return Err(StateError::NotFinite {
                 quantity,
-                velocity: velocities[row].to_owned(),
+                of: velocities[row].to_owned(),
                 value,
             });
         }
@@ -223,6 +271,7 @@ pub fn start(engine: &Engine, parameters: &[f64]) -> State {
         v: next(info.velocities),
         z: next(info.auxiliaries),
         m: next(info.memory),
+        a: Vec::new(),
     }
 }
 
@@ -237,7 +286,7 @@ fn check_quaternion(name: &str, q: &[f64]) -> Result<(), StateError> {
 }
 
 /// The functions of a model that are not algebra, for plain numbers; a function of the user gives NaN.
-pub fn functions(model: &Model) -> impl Fn(Function, &[f64]) -> f64 + use<> {
+pub fn functions(model: &Model) -> impl Fn(expression::Function, &[f64]) -> f64 + use<> {
     let curves: Vec<Curve> = model.curves.iter().map(Curve::from).collect();
     bryant_engine::functions(&curves)
 }

@@ -89,7 +89,7 @@ impl Notation {
                 let name = self.parameters.get(i as usize).cloned();
                 return Err(name.unwrap_or_else(|| print::symbol_name(symbol)));
             }
-            Symbol::Auxiliary(_) | Symbol::Memory(_) => None,
+            Symbol::Auxiliary(_) | Symbol::Memory(_) | Symbol::Acceleration(_) => None,
             Symbol::Time => None,
         };
         found.ok_or_else(|| print::symbol_name(symbol))

@@ -1,5 +1,7 @@
 //! Compiles the models of the motion tests.
 
+use bryant_generator::dynamics::functions::FUNCTIONS;
+
 fn main() {
     bryant_generator::Config::new()
         .models_in("models")
@@ -11,4 +13,16 @@ fn main() {
             .matrices(false)
             .generate_or_report();
     }
+    // each function that can be asked for, of one frame
+    let functions = FUNCTIONS
+        .iter()
+        .map(|function| match function.is_of_frame() {
+            true => format!("{}(arm/tip)", function.name),
+            false => function.name.to_owned(),
+        });
+    bryant_generator::Config::new()
+        .model("models/functions/machine.yaml")
+        .matrices(false)
+        .functions(functions)
+        .generate_or_report();
 }

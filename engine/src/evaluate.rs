@@ -10,7 +10,7 @@ use bryant_generator::expression::Function;
 use bryant_generator::program::{List, Method, Methods};
 use bryant_runtime::Real;
 use std::cell::{OnceCell, RefCell};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// The machine code of a model over one scalar: of each list, once compiled; `None` where compilation was tried and there is no code.
 ///
@@ -18,6 +18,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Debug)]
 pub struct Codes<T> {
     sets: Sets<Option<Code<T>>>,
+    /// Code of the functions that were asked for.
+    functions: Box<[OnceLock<Option<Code<T>>>]>,
     /// Code of some of the outputs.
     outputs: Mutex<Last<T>>,
 }
@@ -31,10 +33,12 @@ type Chosen<T> = Arc<Option<Code<T>>>;
 /// The outputs that were wanted last, and their code.
 type Last<T> = Option<(Box<[usize]>, Chosen<T>)>;
 
-impl<T> Default for Codes<T> {
-    fn default() -> Self {
+impl<T> Codes<T> {
+    /// No code yet, of a model with this number of functions.
+    pub fn new(functions: usize) -> Self {
         Codes {
             sets: Sets::default(),
+            functions: (0..functions).map(|_| OnceLock::new()).collect(),
             outputs: Mutex::new(None),
         }
     }
@@ -44,6 +48,10 @@ impl<T: Real> Codes<T> {
     fn of(&self, shared: &Shared, methods: Methods) -> Option<&Option<Code<T>>> {
         let list = shared.list(methods)?;
         self.sets.get(methods, || code(shared, list))
+    }
+
+    fn function(&self, shared: &Shared, index: usize) -> &Option<Code<T>> {
+        self.functions[index].get_or_init(|| code(shared, &shared.functions[index]))
     }
 
     fn outputs(&self, shared: &Shared, wanted: &[usize]) -> Chosen<T> {
@@ -145,6 +153,14 @@ impl<T: Real> Execute<T> for Evaluator<T> {
             None => return false,
         }
         true
+    }
+
+    #[inline]
+    fn run_function(&self, index: usize, given: Given<'_, T>, results: &mut [T]) {
+        match self.codes.function(&self.shared, index) {
+            Some(code) => self.run_code(code, given, results),
+            None => self.interpreter().run_function(index, given, results),
+        }
     }
 
     fn run_outputs(&self, wanted: &[usize], given: Given<'_, T>, results: &mut [T]) -> bool {

@@ -32,6 +32,8 @@ pub trait Execute<T: Real> {
     /// method.
     /// Nothing is allocated but when a set is used for the first time.
     fn run(&self, methods: Methods, given: Given<'_, T>, results: &mut [T]) -> bool;
+    /// Evaluates a function that was asked for. The state is followed by the accelerations if the function needs them.
+    fn run_function(&self, index: usize, given: Given<'_, T>, results: &mut [T]);
     /// Evaluates the outputs with these indices and returns true; returns false and writes nothing if there is no
     /// machine code for them. `results` is as long as `wanted`, which is the same at every call until
     /// [`Execute::forget_outputs`].

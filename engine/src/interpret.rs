@@ -16,7 +16,7 @@ use bryant_generator::program::{Input, List, Lists, Methods, Operation, Value};
 use bryant_runtime::{Real, Task};
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// The methods of a model in the form that the interpreter runs, the same for all scalars.
 #[derive(Debug)]
@@ -27,6 +27,8 @@ pub struct Programs {
     layout: Layout,
     /// The code of each set of methods.
     codes: Sets<Code>,
+    /// The code of each function.
+    functions: Box<[OnceLock<Code>]>,
 }
 
 /// A place in the frame.
@@ -144,8 +146,9 @@ impl Programs {
         let facts = &lists.facts;
         let mut constants = Vec::new();
         let mut place_of: HashMap<u64, Place> = HashMap::new();
-        let all = lists.routines.iter();
-        for constant in all.flat_map(|routine| &routine.list.constants) {
+        let functions = lists.functions.iter().map(|function| &function.list);
+        let all = lists.routines.iter().map(|routine| &routine.list);
+        for constant in all.chain(functions).flat_map(|list| &list.constants) {
             place_of.entry(constant.to_bits()).or_insert_with(|| {
                 constants.push(*constant);
                 constants.len() as Place - 1
@@ -155,7 +158,12 @@ impl Programs {
         let derived = parameters + facts.parameters.len() as Place;
         let time = derived + lists.derived as Place;
         let state = time + 1;
-        let rest = state + facts.kinds.len() as Place;
+        // accelerations, for functions that need them, are behind the state
+        let accelerations = match lists.functions.iter().any(|of| of.accelerations) {
+            true => facts.velocities.len() as Place,
+            false => 0,
+        };
+        let rest = state + facts.kinds.len() as Place + accelerations;
         Programs {
             constants,
             place_of,
@@ -167,6 +175,7 @@ impl Programs {
                 rest,
             },
             codes: Sets::default(),
+            functions: lists.functions.iter().map(|_| OnceLock::new()).collect(),
         }
     }
 
@@ -321,8 +330,31 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         let Some(code) = list.and_then(|list| programs.code(methods, list)) else {
             return false;
         };
+        self.run_code(code, given, results);
+        true
+    }
+
+    fn run_function(&self, index: usize, given: Given<'_, T>, results: &mut [T]) {
+        let programs = self.shared.programs();
+        let encode = || {
+            encode(
+                &self.shared.functions[index],
+                &programs.layout,
+                &programs.place_of,
+            )
+        };
+        self.run_code(
+            programs.functions[index].get_or_init(encode),
+            given,
+            results,
+        );
+    }
+}
+
+impl<T: Real> Interpreter<T> {
+    fn run_code(&self, code: &Code, given: Given<'_, T>, results: &mut [T]) {
         let Values { frame, arguments } = &mut *self.values.borrow_mut();
-        let layout = programs.layout;
+        let layout = self.shared.programs().layout;
         frame[layout.time as usize] = given.time;
         frame[layout.state as usize..][..given.state.len()].copy_from_slice(given.state);
         // nothing is allocated when the method runs again
@@ -342,7 +374,6 @@ impl<T: Real> Execute<T> for Interpreter<T> {
         for (result, &place) in results.iter_mut().zip(&code.results) {
             *result = frame[place as usize];
         }
-        true
     }
 }
 

@@ -9,7 +9,7 @@ use crate::jacobian::{Jacobian, jacobian};
 use crate::sets::Sets;
 use crate::user::UserFunctions;
 use bryant_generator::expression::Function;
-use bryant_generator::program::{Input, List, Lists, Method, Methods, Operation, Start};
+use bryant_generator::program::{self, Input, List, Lists, Method, Methods, Operation, Start};
 use bryant_runtime::dynamics::one_by_one;
 use bryant_runtime::real::Base;
 use bryant_runtime::{Adjustable, Dynamics, Family, Info, Real, Schedule, Section, Task};
@@ -32,6 +32,8 @@ pub(crate) struct Shared {
     pub library: Arc<Library>,
     /// Made when a method is interpreted for the first time.
     programs: OnceLock<Programs>,
+    /// The lists of the functions that were asked for, with accelerations as entries behind those of the state.
+    pub functions: Vec<List>,
     /// The lists of sets of methods, and of methods that start from others.
     combined: Sets<List>,
     /// The machine code over each scalar: [`Codes`].
@@ -64,7 +66,7 @@ impl Shared {
         let mut codes = self.codes.lock().unwrap_or_else(PoisonError::into_inner);
         let made = codes
             .entry(TypeId::of::<T>())
-            .or_insert_with(|| Arc::new(Codes::<T>::default()));
+            .or_insert_with(|| Arc::new(Codes::<T>::new(self.functions.len())));
         let made = Arc::clone(made).downcast();
         made.unwrap_or_else(|_| unreachable!("the scalar is the key"))
     }
@@ -126,11 +128,17 @@ impl Engine {
                 }
             }
         }
+        let state = lists.facts.kinds.len() as u32;
         Ok(Engine {
             shared: Arc::new(Shared {
                 info: info::info(&lists.facts),
                 library: Arc::new(Library::new(&lists.curves, users)),
                 programs: OnceLock::new(),
+                functions: lists
+                    .functions
+                    .iter()
+                    .map(|of| behind_state(of, state))
+                    .collect(),
                 combined: Sets::default(),
                 codes: Mutex::default(),
                 lists,
@@ -161,6 +169,16 @@ impl Engine {
         &self.shared.lists
     }
 
+    /// The functions that were asked for when the lists were made.
+    pub fn functions(&self) -> &[program::Function] {
+        &self.shared.lists.functions
+    }
+
+    /// The index among the [functions](Self::functions) of the one with this name, as `jacobian(arm/hand)`.
+    pub fn function(&self, name: &str) -> Option<usize> {
+        self.functions().iter().position(|of| of.name == name)
+    }
+
     /// The model over a scalar, with the default values of all parameters. It uses machine code where possible, else
     /// the interpreter.
     pub fn over<T: Real>(&self) -> Evaluated<T> {
@@ -171,6 +189,17 @@ impl Engine {
     pub fn interpreted<T: Real>(&self) -> Interpreted<T> {
         Machine::new(self.shared.clone(), Interpreter::new(self.shared.clone()))
     }
+}
+
+/// The list of a function, with accelerations as entries behind those of a state of this length.
+fn behind_state(function: &program::Function, state: u32) -> List {
+    let mut list = function.list.clone();
+    for input in &mut list.inputs {
+        if let Input::Acceleration(index) = *input {
+            *input = Input::State(state + index);
+        }
+    }
+    list
 }
 
 impl Family for Engine {
@@ -221,6 +250,8 @@ pub struct Machine<T, E> {
     derived: Vec<T>,
     /// Room for results that are not returned as they are.
     results: RefCell<Vec<T>>,
+    /// Room for a state and accelerations behind it; empty if no function needs accelerations.
+    given: RefCell<Vec<T>>,
     /// The indices of the wanted outputs; `None` if all are wanted.
     wanted: Option<Box<[usize]>>,
     /// The Jacobian, made when it is used for the first time.
@@ -235,7 +266,14 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     fn new(shared: Arc<Shared>, execute: E) -> Self {
         let room: usize = Method::ALL.map(|method| shared.length(method)).iter().sum();
         let defaults = shared.info.parameters.iter();
+        let facts = &shared.lists.facts;
+        let needed = shared.lists.functions.iter().any(|of| of.accelerations);
+        let given = match needed {
+            true => facts.kinds.len() + facts.velocities.len(),
+            false => 0,
+        };
         let mut machine = Machine {
+            given: RefCell::new(vec![T::from_f64(0.0); given]),
             parameters: defaults.map(|p| T::from_f64(p.default)).collect(),
             derived: vec![T::from_f64(0.0); shared.lists.derived],
             results: RefCell::new(vec![T::from_f64(0.0); room]),
@@ -291,6 +329,37 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
             method,
             method != Method::Derived && needs(Method::Derived, false),
         )
+    }
+
+    /// The values of a [function](Engine::functions) at a time, a state and accelerations: a matrix by rows. The
+    /// accelerations are as many as there are velocities; they are not read if the function does not need them.
+    ///
+    /// # Panics
+    /// If there is no function of this index, or if a slice is too short.
+    pub fn function(
+        &self,
+        index: usize,
+        time: T,
+        state: &[T],
+        accelerations: &[T],
+        results: &mut [T],
+    ) {
+        let function = &self.shared.lists.functions[index];
+        let results = &mut results[..function.list.results.len()];
+        let facts = &self.shared.lists.facts;
+        let state = &state[..facts.kinds.len()];
+        if !function.accelerations {
+            return self
+                .execute
+                .run_function(index, Given { time, state }, results);
+        }
+        let mut given = self.given.borrow_mut();
+        let (before, behind) = given.split_at_mut(state.len());
+        before.copy_from_slice(state);
+        behind.copy_from_slice(&accelerations[..facts.velocities.len()]);
+        let state = &given[..];
+        self.execute
+            .run_function(index, Given { time, state }, results);
     }
 
     /// Computes the values that depend only on parameters.

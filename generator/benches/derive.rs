@@ -124,7 +124,7 @@ fn one(file: &Path, effects: bool) -> Result<(), Failed> {
     let end = processor();
     let mut operations = String::new();
     for (method, table) in &costs {
-        if ["accelerations", "outputs"].contains(method) && table.total.total() > 0 {
+        if ["accelerations", "outputs"].contains(&&**method) && table.total.total() > 0 {
             write!(operations, ", {method} {}", table.total.total())?;
         }
     }

@@ -6,9 +6,11 @@
 use crate::description::load::read_bytes;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::dynamics;
+use crate::dynamics::functions::{Request, requests};
+use crate::equations::Equations;
 use crate::law::ForceKind;
 use crate::model::{Coordinates, Dimension, Model};
-use crate::program::{self, Lists};
+use crate::program::{self, Costs, Lists};
 use crate::read::{read, read_str};
 use crate::target::{c, rust, summary};
 use std::fmt;
@@ -54,6 +56,7 @@ pub struct Config {
     out_dir: Option<PathBuf>,
     c_dir: Option<PathBuf>,
     coordinates: Option<Coordinates>,
+    functions: Vec<String>,
     options: program::Options,
 }
 
@@ -88,6 +91,7 @@ impl Config {
             out_dir: None,
             c_dir: None,
             coordinates: None,
+            functions: Vec::new(),
             options: program::Options::default(),
         }
     }
@@ -140,37 +144,69 @@ impl Config {
         self
     }
 
-    /// The module of a model.
-    pub fn source(&self, model: &Model) -> String {
+    /// Asks for [functions](crate::dynamics::functions) by their names, in addition to those that were asked for before:
+    /// `["inverse_dynamics", "jacobian(arm/hand)"]`. They become methods of the mechanism, functions in C and functions of
+    /// the lists. A function that each model has in any case (`kinetic_energy`; `mass_matrix` and `applied_forces` unless
+    /// [`matrices`](Self::matrices) is false) is not written a second time in Rust and C.
+    pub fn functions<S: Into<String>>(&mut self, names: impl IntoIterator<Item = S>) -> &mut Self {
+        self.functions.extend(names.into_iter().map(Into::into));
+        self
+    }
+
+    /// The functions that are asked for, of this model. `file` stands for the model in messages.
+    ///
+    /// # Errors
+    /// All functions and frames that the model does not have.
+    pub fn requests(&self, model: &Model, file: &str) -> Result<Vec<Request>, Diagnostics> {
+        requests(model, file, self.functions.iter().map(String::as_str))
+    }
+
+    /// The equations of a model, with the functions that are asked for.
+    fn equations(&self, model: &Model) -> Equations {
+        let requests = self.requests(model, &model.name);
+        let requests = requests.unwrap_or_else(|problems| panic!("{problems}"));
         let options = dynamics::Options {
             matrices: self.options.matrices,
             ..Default::default()
         };
-        rust::module(model, &dynamics::derive_with(model, options), &self.options)
+        dynamics::derive_functions(model, options, &requests)
+    }
+
+    /// The module of a model.
+    ///
+    /// # Panics
+    /// If the model does not have a function that is asked for: [`requests`](Self::requests) tells.
+    pub fn source(&self, model: &Model) -> String {
+        rust::module(model, &self.equations(model), &self.options)
     }
 
     /// A model as C99, with the same operations as [`Self::source`].
     ///
     /// # Errors
     /// If the model calls functions of the user, which are Rust.
+    ///
+    /// # Panics
+    /// If the model does not have a function that is asked for: [`requests`](Self::requests) tells.
     pub fn c_source(&self, model: &Model) -> Result<c::Source, c::NoC> {
-        let options = dynamics::Options {
-            matrices: self.options.matrices,
-            ..Default::default()
-        };
-        let equations = dynamics::derive_with(model, options);
+        let equations = self.equations(model);
         let lists = program::lists(model, &equations, &self.options);
         c::source(&lists, &summary::lines(model, &equations))
     }
 
     /// The methods of a model as lists, with the same operations as [`Self::source`], bit for bit.
+    ///
+    /// # Panics
+    /// If the model does not have a function that is asked for: [`requests`](Self::requests) tells.
     pub fn lists(&self, model: &Model) -> Lists {
-        let options = dynamics::Options {
-            matrices: self.options.matrices,
-            ..Default::default()
-        };
-        let equations = dynamics::derive_with(model, options);
-        program::lists(model, &equations, &self.options)
+        program::lists(model, &self.equations(model), &self.options)
+    }
+
+    /// The operations of each method and of each function that is asked for.
+    ///
+    /// # Panics
+    /// If the model does not have a function that is asked for: [`requests`](Self::requests) tells.
+    pub fn costs(&self, model: &Model) -> Costs {
+        program::costs(model, &self.equations(model), &self.options)
     }
 
     /// The module of the model in a YAML text. `name` stands for the file in messages; `loader` is asked for included
@@ -185,6 +221,7 @@ impl Config {
         loader: &dyn Fn(&Path) -> io::Result<String>,
     ) -> Result<Generated, Diagnostics> {
         let (model, read) = read_str(name, text, loader)?;
+        self.requests(&model, name)?;
         Ok(self.generated(Path::new(name), model, read))
     }
 
@@ -226,7 +263,10 @@ impl Config {
             match read(&path) {
                 Ok((model, read)) => {
                     read.iter().for_each(|path| rerun_if_changed(path));
-                    all.push(self.generated(&path, model, read));
+                    match self.requests(&model, &path.display().to_string()) {
+                        Ok(_) => all.push(self.generated(&path, model, read)),
+                        Err(found) => problems.extend(found.problems),
+                    }
                 }
                 // The files that it includes are unknown; but cargo always runs a failed script again.
                 Err(found) => {

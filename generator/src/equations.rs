@@ -4,6 +4,7 @@
 //! angles; in space with quaternions v holds ẋ and ω, and S v̇ = r_s + r_k.
 
 use crate::expression::{Graph, NodeId};
+use crate::method::argument::Argument;
 use crate::method::{Method, Start};
 use crate::model::Rule;
 
@@ -59,6 +60,8 @@ pub struct Equations {
     pub pivots: Vec<Named>,
     /// The sections that nothing else is made of.
     pub sections: Vec<Section>,
+    /// The functions that are asked for, in the order of the requests.
+    pub functions: Vec<Function>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Curves of time: for each its index, and the factor of time in its abscissa.
@@ -114,6 +117,23 @@ pub struct Section {
     pub values: Vec<Named>,
     /// The values from which the method may start.
     pub start: Start,
+}
+
+/// A [function](crate::dynamics::functions) that is asked for: a matrix of values.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Function {
+    /// Its name, with its argument: "jacobian(arm/hand)".
+    pub name: String,
+    /// What it computes.
+    pub sentence: &'static str,
+    /// The arguments that it always has.
+    pub arguments: &'static [Argument],
+    /// The names of its rows; a single row may have none.
+    pub rows: Vec<String>,
+    /// The names of its columns; a single column has none.
+    pub columns: Vec<String>,
+    /// The values, by rows.
+    pub values: Vec<NodeId>,
 }
 
 impl Equations {

@@ -54,6 +54,7 @@ impl<S: Scalar + PartialOrd> Accelerations<S> {
             parameters: &[],
             auxiliaries: &[],
             memory: &self.charts,
+            accelerations: &[],
         };
         // the only function is the choice of a chart: the third argument if the first is less than the second, else the
         // fourth

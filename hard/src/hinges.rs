@@ -286,6 +286,7 @@ fn backward_error(model: &Model, random: &mut Random, links: &[Link]) -> [f64; 2
         parameters: &[],
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
     };
     let mut evaluator = Evaluator::<Precise>::new(&exact.graph, &roots);
     let found = evaluator

@@ -121,6 +121,7 @@ impl Rounded {
                 parameters: &p,
                 auxiliaries: &z,
                 memory: &m,
+                accelerations: &[],
             };
             let functions = |function: Function, arguments: &[Rough]| {
                 let plain: Vec<f64> = arguments.iter().map(|rough| rough.0).collect();

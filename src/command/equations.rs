@@ -10,7 +10,7 @@ use super::progress::Progress;
 use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
 use crate::equations::of_lists;
-use crate::evaluation::{self, Evaluation, State};
+use crate::evaluation::{self, Evaluation, Function, State};
 use crate::files;
 use crate::notation::Notation;
 use crate::signature::Kind;
@@ -35,7 +35,8 @@ use std::path::{Path, PathBuf};
 #[command(after_long_help = "\
 The state is a JSON file {\"t\": 0.01, \"q\": [...], \"v\": [...]} (SI units; - reads it from standard input); q and v stand
 in the order of \"coordinates\" and \"velocities\", which --json prints, with the state itself as \"state\". Without
---at the state is that at the start of a run. Functions of user forces are compiled as for `bryant run`.
+--at the state is that at the start of a run. Functions of user forces are compiled as for `bryant run`. --functions
+needs accelerations for some, as \"a\": [...] in the order of v; without them it takes those of the motion.
 
 Examples:
   bryant equations sled-pendulum
@@ -43,6 +44,7 @@ Examples:
   bryant equations my.yaml --rust > model.rs
   bryant equations child-seat --c --out src          write src/child_seat.h and src/child_seat.c
   bryant equations my.yaml --json                    values at the start
+  bryant equations robot-arm --functions 'inverse_dynamics,jacobian(hand)'
   echo '{\"t\": 0, \"q\": [0.1, 0, 0, 0.2], \"v\": [0, 0, 0, 1]}' | bryant equations sled-pendulum --at - --json")]
 pub struct Arguments {
     /// Name of a bundled model, or path of a YAML or URDF file
@@ -69,6 +71,16 @@ pub struct Arguments {
         requires = "c"
     )]
     out: Option<PathBuf>,
+
+    /// Functions of the mechanism, such as inverse_dynamics or jacobian(arm/hand): with --rust and --c their source as
+    /// well, else their values at the state
+    #[arg(
+        long,
+        value_name = "NAME,…",
+        value_delimiter = ',',
+        conflicts_with = "latex"
+    )]
+    functions: Vec<String>,
 
     /// Coordinates of orientations in space, instead of those of the model
     #[arg(long, value_enum)]
@@ -112,18 +124,23 @@ impl Arguments {
             None => {}
         }
         model.normalize();
+        let mut config = Config::new();
+        config.functions(&self.functions);
+        config
+            .requests(&model, &self.model)
+            .map_err(|problems| Error::Input(problems.to_string()))?;
         let progress = Progress::deriving(terminal, &model.name);
         if self.rust {
-            let text = Config::new().source(&model);
+            let text = config.source(&model);
             drop(progress);
             return terminal.print(&text);
         }
         if self.c {
-            let made = Config::new().c_source(&model).map_err(Error::input);
+            let made = config.c_source(&model).map_err(Error::input);
             drop(progress);
             return self.print_c(&made?, &found.files, terminal);
         }
-        if !(self.json || state.is_some()) {
+        if !(self.json || state.is_some() || !self.functions.is_empty()) {
             let equations = derive_in_first_chart(&model);
             drop(progress);
             return terminal.print(&listing(
@@ -133,7 +150,7 @@ impl Arguments {
                 self.latex,
             ));
         }
-        let lists = Config::new().lists(&model);
+        let lists = config.lists(&model);
         drop(progress);
         let users = users_of(&found, &model, terminal)?;
         let engine = of_lists(lists, users.clone()).map_err(Error::system)?;
@@ -416,6 +433,40 @@ fn table(info: &Info, values: &Evaluation) -> String {
             .map(|n| format!("{:>14}", number(*n, DIGITS)))
             .collect();
         let _ = writeln!(text, "{}", row.join(" "));
+    }
+    for function in &values.functions {
+        text.push('\n');
+        text += &function_table(function);
+    }
+    text
+}
+
+/// The values of a function: a row for each row, with its name.
+fn function_table(function: &Function) -> String {
+    let Function {
+        name,
+        rows,
+        columns,
+        values,
+    } = function;
+    let mut text = format!("{name}\n");
+    let widths = |names: &[String]| names.iter().map(|name| name.chars().count()).max();
+    let first = widths(rows).unwrap_or(0);
+    let width = widths(columns).unwrap_or(0).max(14);
+    if columns.iter().any(|column| !column.is_empty()) {
+        let columns: Vec<String> = columns.iter().map(|c| format!("{c:>width$}")).collect();
+        let line = format!("{:first$} {}", "", columns.join(" "));
+        let _ = writeln!(text, "{}", line.trim_end());
+    }
+    for (row, values) in rows.iter().zip(values) {
+        let values = values
+            .iter()
+            .map(|n| format!("{:>width$}", number(*n, DIGITS)));
+        let _ = writeln!(
+            text,
+            "{row:first$} {}",
+            values.collect::<Vec<_>>().join(" ")
+        );
     }
     text
 }

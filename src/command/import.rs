@@ -16,7 +16,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
 Links become elements and keep their names, with full inertia tensors; joints become joints with their axes; damping and friction
-become joint forces, each joint gets a motor with an input, <mimic> becomes `follows`, rotors of transmissions become `armature`. Links without mass that a fixed joint holds become points. What is
+become joint forces, each joint gets a motor with an input, <mimic> becomes `follows`, rotors of transmissions become `armature`. Links without mass that a fixed joint holds become `points`. What is
 not taken over, such as shapes and sensors, is listed with its lines. Gravity of 9.81 m/s2 along -z is added.
 
 With --repair-inertias a file without masses can be tried out: links get stand-in masses, joints that move no mass become fixed, tensors of no body become

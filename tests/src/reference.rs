@@ -151,6 +151,7 @@ pub fn element() -> Element {
         axes: zero(),
         angles: zero(),
         angular_velocity: zero(),
+        points: Vec::new(),
     }
 }
 

@@ -262,6 +262,7 @@ fn a_change_of_chart_is_none_of_the_body() {
             parameters: &[],
             auxiliaries: &[],
             memory: &m,
+            accelerations: &[],
         };
         let renewed = evaluate(&equations.graph, &roots, &inputs, &choices);
         let (q2, rest) = renewed.split_at(q.len());

@@ -520,6 +520,79 @@ fn equations_at_a_state_are_those_of_the_pendulum() {
 }
 
 #[test]
+fn functions_are_those_of_the_pendulum() {
+    let directory = directory();
+    let write = |text: &str| std::fs::write(directory.path().join("state.json"), text).unwrap();
+    write(r#"{"q": [0.4], "v": [3], "a": [2]}"#);
+    let functions = "inverse_dynamics, jacobian(rod),kinetic_energy,pose(clock/rod)";
+    let arguments = [
+        "equations",
+        "clock.yaml",
+        "--functions",
+        functions,
+        "--at",
+        "state.json",
+    ];
+    let value = json(&call(directory.path(), &[&arguments[..], &["--json"]].concat(), 0).0);
+    let of = |k: usize| &value["functions"][k];
+    let first = |k: usize| of(k)["values"][0][0].as_f64().unwrap();
+    // J a + m g l sin φ, with the inertia J about the pivot
+    let torque = 0.6 * 2.0 + 2.0 * 9.81 * 0.5 * 0.4f64.sin();
+    assert!((first(0) - torque).abs() < 1e-14 * torque, "{value}");
+    assert_eq!(of(1)["rows"][4], "about_y");
+    assert_eq!(
+        of(1)["values"],
+        serde_json::json!([[0.0], [0.0], [0.0], [0.0], [1.0], [0.0]])
+    );
+    assert!((first(2) - 0.5 * 0.6 * 9.0).abs() < 1e-14, "{value}");
+    // a turn about +y takes x towards -z
+    assert!(
+        (of(3)["values"][2][0].as_f64().unwrap() + 0.4f64.sin()).abs() < 1e-15,
+        "{value}"
+    );
+
+    let (text, _) = call(directory.path(), &arguments, 0);
+    assert!(
+        text.contains("\njacobian(rod)\n") && text.contains("about_y"),
+        "{text}"
+    );
+    // without accelerations those of the motion: no joint has to provide anything
+    write(r#"{"q": [0.4], "v": [3]}"#);
+    let value = json(&call(directory.path(), &[&arguments[..], &["--json"]].concat(), 0).0);
+    assert!(
+        value["functions"][0]["values"][0][0]
+            .as_f64()
+            .unwrap()
+            .abs()
+            < 1e-14,
+        "{value}"
+    );
+    write(r#"{"q": [0.4], "v": [3], "a": [2, 1]}"#);
+    let (_, stderr) = call(directory.path(), &arguments, 2);
+    assert!(stderr.contains("\"a\" has 2 numbers"), "{stderr}");
+
+    let arguments = [
+        "equations",
+        "clock.yaml",
+        "--functions",
+        "bias,jacobian(rod)",
+    ];
+    let (rust, _) = call(directory.path(), &[&arguments[..], &["--rust"]].concat(), 0);
+    assert!(
+        rust.contains("pub fn bias(") && rust.contains("pub fn jacobian_rod("),
+        "{rust}"
+    );
+    let (c, _) = call(directory.path(), &[&arguments[..], &["--c"]].concat(), 0);
+    assert!(c.contains("void clock_jacobian_rod(const clock_model *m, double t, const double y[], double results[]);"), "{c}");
+    let wrong = ["equations", "clock.yaml", "--functions", "jacobian(rot)"];
+    let (_, stderr) = call(directory.path(), &wrong, 2);
+    assert!(
+        stderr.contains("there is no frame \"rot\"") && stderr.contains("did you mean \"rod\"?"),
+        "{stderr}"
+    );
+}
+
+#[test]
 fn equations_are_printed_in_three_languages() {
     let directory = directory();
     let (text, _) = call(directory.path(), &["equations", "clock.yaml"], 0);

@@ -46,6 +46,7 @@ impl Point {
             parameters: &self.parameters,
             auxiliaries: &self.z,
             memory: &self.m,
+            accelerations: &[],
         }
     }
 

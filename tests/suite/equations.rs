@@ -33,6 +33,7 @@ fn values(
         parameters,
         auxiliaries: &[],
         memory: m,
+        accelerations: &[],
     };
     evaluate(&equations.graph, roots, &inputs, &choices)
 }
@@ -123,6 +124,7 @@ fn mass_matrix_and_velocity_forces_are_those_of_lagrange() {
                             parameters: &[],
                             auxiliaries: &[],
                             memory: &m,
+                            accelerations: &[],
                         };
                         let roots =
                             [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()].concat();

@@ -97,6 +97,7 @@ pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
             parameters: &[],
             auxiliaries: &[],
             memory: &m,
+            accelerations: &[],
         };
         let roots = [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()];
         let expected = evaluate(&oracle.graph, &roots.concat(), &inputs, &functions(model));

@@ -74,6 +74,7 @@ impl<'a> Balance<'a> {
                 parameters: &parameters,
                 auxiliaries: &ones(z),
                 memory: &ones(m),
+                accelerations: &[],
             };
             let (values, _) = balance.evaluate(&inputs, &functions, f64::EPSILON);
             values[2 * count..].to_vec()
@@ -109,6 +110,7 @@ impl<'a> Balance<'a> {
                 velocities: v,
                 parameters: &parameters,
                 auxiliaries: z,
+                accelerations: &[],
                 memory: m,
             };
             let (values, scatter) = balance.evaluate(&inputs, &functions, f64::EPSILON);

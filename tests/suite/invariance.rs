@@ -176,6 +176,7 @@ fn a_turned_and_moved_scene_has_equal_accelerations_and_powers() {
                 velocities: &v,
                 parameters: &parameters,
                 auxiliaries: z,
+                accelerations: &[],
                 memory: m,
             };
             // a free reference joint has two successive coordinates named x and z

@@ -199,6 +199,7 @@ fn at(model: &Model, equations: &Equations, q: &[f64], v: &[f64]) -> [Vec<f64>; 
         parameters: &[],
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
     };
     [
         &equations.accelerations,

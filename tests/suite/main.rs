@@ -1,6 +1,7 @@
 //! End-to-end tests of the whole chain, from text to results.
 
 mod accuracy;
+mod asked;
 mod changes;
 mod charts;
 mod closed_form;

@@ -212,6 +212,7 @@ fn numbers_and_parameters_give_the_same_accelerations() {
                                 parameters,
                                 auxiliaries: &[],
                                 memory: &m,
+                                accelerations: &[],
                             };
                             evaluate(
                                 &equations.graph,

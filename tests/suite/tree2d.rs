@@ -55,6 +55,7 @@ fn mass_matrix_and_accelerations_are_those_of_the_reference() {
         v: v.to_vec(),
         z: vec![],
         m: vec![],
+        a: vec![],
     };
     for route in [Route::Elimination, Route::MassMatrix] {
         let equations = derive_with(

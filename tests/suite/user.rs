@@ -39,6 +39,7 @@ fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
         parameters: &parameters,
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
     };
     let mut rounded = Rounded::new(&equations.graph, &roots);
     let (_, scatter) = rounded.evaluate(&inputs, &functions(&model), f64::EPSILON);
@@ -315,6 +316,7 @@ fn a_function_of_the_user_computes_in_single_precision() {
             parameters: &parameters,
             auxiliaries: &state[4..],
             memory: &[],
+            accelerations: &[],
         };
         let (_, scatter) = rounded.evaluate(&inputs, &functions(&model), f32::EPSILON.into());
         let largest = scatter.iter().fold(0.0f64, |m, s| m.max(*s));

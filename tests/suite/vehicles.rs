@@ -279,6 +279,7 @@ fn solve_their_equations(random: &mut Random, model: &Model) {
                 parameters: &[],
                 auxiliaries: &[],
                 memory: &m,
+                accelerations: &[],
             };
             let of =
                 |roots: &[NodeId]| evaluate(&equations.graph, roots, &inputs, &functions(model));

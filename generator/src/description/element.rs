@@ -35,8 +35,22 @@ record! {
         neck: Option<Neck>,
         /// the [meshes](#a-mesh) that it is shown with
         mesh: Option<Meshes>,
+        /// [points](#a-point) of it that have names, as frames for [functions](functions.md)
+        points: Option<Vec<NamedPoint>>,
         /// `true` adds its [mirror image](#a-mirror)
         mirror: Option<bool> = "`false`",
+    }
+}
+
+record! {
+    /// A point of an element, with axes of its own: a frame.
+    NamedPoint as "a point" {
+        /// name, unique among the elements and points of its system
+        name: String,
+        /// where it is, local frame
+        at: Option<Vec<Number<Length>>> = "the joint",
+        /// Bryant angles of its axes relative to the local frame; in the plane one angle
+        angles: Option<OneOrThree<Number<Angle>>> = "0",
     }
 }
 

@@ -75,6 +75,7 @@ pub fn vocabulary(language: &Language) -> Vec<(&'static str, Vec<Key>)> {
         of::<system::Riding>(),
         of::<system::Start>(),
         of::<element::Element>(),
+        of::<element::NamedPoint>(),
         of::<element::Anatomy>(),
         of::<mesh::Mesh>(),
         joint::keys(language),

@@ -9,6 +9,7 @@
 //! | M, b, J | augmented body | `augmented` |
 //! | K, B, J | articulated inertia | `elimination/`, `spatial/articulated_body`, `link/` |
 //! | D = Hᵀ I H | joint-space inertia, I being the articulated one | `Ldl` of `factorization`, called from `elimination/`, `spatial/articulated_body`, `link/` |
+//! | what is asked for by name | inverse dynamics, Jacobians, … | `functions/` |
 //! | L d Lᵀ | factorisation of S, and of each D; no inverse is formed | `factorization` |
 //!
 //! All derivations are written once, for space, in vectors of absolute axes; only `link/` uses the frames of links. In
@@ -41,11 +42,13 @@ mod curves_of_time;
 mod elimination;
 mod energy;
 mod factorization;
+pub mod functions;
 pub mod lagrange;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod link;
 mod mass_matrix;
+mod matrices;
 mod momentum;
 mod outputs;
 mod sections;
@@ -63,6 +66,8 @@ use crate::method::Method;
 use crate::model::{Model, System};
 use crate::motion::{Layout, Motion, State};
 use augmented::{AugmentedTree, Omitted};
+use functions::{Known, Request};
+use matrices::{Matrices, with_axes};
 use outputs::Scene;
 use spatial::Spatial;
 
@@ -99,16 +104,23 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
     derive_without(model, options, None)
 }
 
+/// Derives the equations of a model, with the [functions](functions) that are asked for.
+pub fn derive_functions(model: &Model, options: Options, requests: &[Request]) -> Equations {
+    derive_in(model, options, requests, None, |graph, layout| {
+        State::symbols(graph, layout)
+    })
+}
+
 /// Derives the equations of a model without an effect of inertia.
 pub fn derive_without(model: &Model, options: Options, omitted: Option<Omitted>) -> Equations {
-    derive_in(model, options, omitted, |graph, layout| {
+    derive_in(model, options, &[], omitted, |graph, layout| {
         State::symbols(graph, layout)
     })
 }
 
 /// Derives the equations of a model for reading: Bryant angles are in chart 0, and charts are no symbols.
 pub fn derive_in_first_chart(model: &Model) -> Equations {
-    derive_in(model, Options::default(), None, |graph, layout| {
+    derive_in(model, Options::default(), &[], None, |graph, layout| {
         State::in_first_chart(graph, layout)
     })
 }
@@ -119,20 +131,40 @@ type Symbols = for<'g> fn(&'g Graph, &Layout) -> State<'g>;
 fn derive_in(
     model: &Model,
     options: Options,
+    requests: &[Request],
     omitted: Option<Omitted>,
     symbols: Symbols,
 ) -> Equations {
     match options.route {
-        Some(route) => by_route(model, options, route, omitted, symbols),
-        None if model.systems.iter().all(System::is_coupled) => {
-            by_route(model, options, Route::MassMatrix, omitted, symbols)
-        }
+        Some(route) => by_route(model, options, requests, route, omitted, symbols),
+        None if model.systems.iter().all(System::is_coupled) => by_route(
+            model,
+            options,
+            requests,
+            Route::MassMatrix,
+            omitted,
+            symbols,
+        ),
         None => {
-            let elimination = by_route(model, options, Route::Elimination, omitted, symbols);
+            let elimination = by_route(
+                model,
+                options,
+                requests,
+                Route::Elimination,
+                omitted,
+                symbols,
+            );
             if elimination.velocities.len() > LARGEST_FACTORIZED {
                 return elimination;
             }
-            let factorized = by_route(model, options, Route::MassMatrix, omitted, symbols);
+            let factorized = by_route(
+                model,
+                options,
+                requests,
+                Route::MassMatrix,
+                omitted,
+                symbols,
+            );
             // Both routes have the same angles and calls, so only the operations that the factoring pass can reduce are
             // compared.
             let cost = |e: &Equations| factor::cost(&Count::of(&e.graph, &e.accelerations));
@@ -148,12 +180,13 @@ fn derive_in(
 fn by_route(
     model: &Model,
     options: Options,
+    requests: &[Request],
     route: Route,
     omitted: Option<Omitted>,
     symbols: Symbols,
 ) -> Equations {
     let graph = Graph::new();
-    let equations = in_graph(&graph, model, options, route, omitted, symbols);
+    let equations = in_graph(&graph, model, options, requests, route, omitted, symbols);
     Equations { graph, ..equations }
 }
 
@@ -163,6 +196,7 @@ fn in_graph(
     graph: &Graph,
     model: &Model,
     options: Options,
+    requests: &[Request],
     route: Route,
     omitted: Option<Omitted>,
     symbols: Symbols,
@@ -211,6 +245,8 @@ fn in_graph(
     };
     let outputs = outputs::outputs(&scene);
     let sections = sections::of(&scene);
+    let known = Known::new(&scene, &systems, options.matrices.then_some(&matrices));
+    let functions = known.functions(requests);
     let triggers = scene.triggers();
     force::switch::complete(graph, model, &mut applied, &triggers);
     let kinks = applied.kinks(graph);
@@ -257,6 +293,7 @@ fn in_graph(
         conditions,
         pivots: named(&pivots),
         sections,
+        functions,
         outputs: ids(&outputs),
         curves_of_time: curves_of_time::of(graph, &needed),
         quaternions: layout.quaternions(),
@@ -264,50 +301,6 @@ fn in_graph(
         velocities: layout.velocities.clone(),
         graph: Graph::new(),
     }
-}
-
-/// S, r_s and r_k; empty where they are not derived.
-#[derive(Default)]
-struct Matrices<'g> {
-    /// S, `None` where it is 0.
-    mass: Vec<Vec<Option<Expr<'g>>>>,
-    /// r_s
-    velocity_forces: Vec<Expr<'g>>,
-    /// r_k
-    applied_forces: Vec<Expr<'g>>,
-}
-
-impl<'g> Matrices<'g> {
-    fn of(
-        graph: &'g Graph,
-        layout: &Layout,
-        systems: &[Spatial<'g, '_>],
-        applied: &AppliedForces<'g>,
-        wanted: bool,
-    ) -> Self {
-        let (none, size) = (graph.constant(0.0), layout.velocities.len());
-        let mut matrices = Matrices {
-            mass: mass_matrix::mass_matrix(systems, size),
-            velocity_forces: bias_forces::velocity_forces(systems, none, size),
-            applied_forces: applied_forces::applied_forces(systems, applied, none, size),
-        };
-        // v̇ from S is searched in frames of its own, so the search for frames of S is made only if S itself is wanted
-        for spatial in with_axes(systems).filter(|_| wanted) {
-            let forces = [
-                &mut matrices.velocity_forces[..],
-                &mut matrices.applied_forces[..],
-            ];
-            link::cheaper_matrices(spatial, applied, &mut matrices.mass, forces);
-        }
-        matrices
-    }
-}
-
-/// The systems that have a joint other than a ball.
-fn with_axes<'a, 'g, 'm>(
-    systems: &'a [Spatial<'g, 'm>],
-) -> impl Iterator<Item = &'a Spatial<'g, 'm>> {
-    systems.iter().filter(|spatial| !spatial.has_balls_alone())
 }
 
 /// The pivots of S, each with the path of its element; empty if no pivot can vanish or if S is too large. Derives S

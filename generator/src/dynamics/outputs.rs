@@ -282,7 +282,7 @@ impl<'g> Scene<'g, '_> {
     }
 
     /// The acceleration of a material point of a body at an offset from its joint or origin.
-    fn body_acceleration(&self, body: Body, offset: Vec3<'g>) -> Vec3<'g> {
+    pub(super) fn body_acceleration(&self, body: Body, offset: Vec3<'g>) -> Vec3<'g> {
         match body {
             Body::Frame => Vec3::zero(self.graph),
             Body::Element(id) => self.acceleration(id, offset),
@@ -290,7 +290,7 @@ impl<'g> Scene<'g, '_> {
         }
     }
 
-    fn body_angular_acceleration(&self, body: Body) -> Vec3<'g> {
+    pub(super) fn body_angular_acceleration(&self, body: Body) -> Vec3<'g> {
         match body {
             Body::Element(id) => self.angular_acceleration(id),
             // the motion of a vehicle is given, so the bias is its whole angular acceleration
@@ -299,7 +299,7 @@ impl<'g> Scene<'g, '_> {
     }
 
     /// The sum of all fields that act on an element.
-    fn fields(&self, id: ElementId) -> Vec3<'g> {
+    pub(super) fn fields(&self, id: ElementId) -> Vec3<'g> {
         self.applied.wrenches.fields[id.system]
             + self.applied.wrenches.partial_fields[id.system][id.element]
     }

@@ -111,6 +111,8 @@ pub struct Inputs<'a, S> {
     pub auxiliaries: &'a [S],
     /// m, the discrete states of force laws.
     pub memory: &'a [S],
+    /// a, the given accelerations.
+    pub accelerations: &'a [S],
 }
 
 impl<S: Copy> Inputs<'_, S> {
@@ -126,6 +128,7 @@ impl<S: Copy> Inputs<'_, S> {
             Symbol::Parameter(i) => self.parameters[i as usize],
             Symbol::Auxiliary(i) => self.auxiliaries[i as usize],
             Symbol::Memory(i) => self.memory[i as usize],
+            Symbol::Acceleration(i) => self.accelerations[i as usize],
         }
     }
 }
@@ -271,6 +274,7 @@ mod tests {
         parameters: &[10.0],
         auxiliaries: &[0.5],
         memory: &[-6.0],
+        accelerations: &[],
     };
 
     #[test]
@@ -332,6 +336,7 @@ mod tests {
                 parameters: &[],
                 auxiliaries: &[],
                 memory: &[],
+                accelerations: &[],
             };
             let [x, y] = state;
             assert_eq!(

@@ -27,6 +27,8 @@ impl Dependence {
     pub const VELOCITIES: Self = Dependence(8);
     /// Depends on continuous or discrete states of force laws.
     pub const LAWS: Self = Dependence(16);
+    /// Depends on given accelerations.
+    pub const ACCELERATIONS: Self = Dependence(32);
 
     /// True if `limit` contains all kinds of inputs of this set.
     pub fn within(self, limit: Self) -> bool {
@@ -40,6 +42,7 @@ impl Dependence {
             Symbol::Velocity(_) => Self::VELOCITIES,
             Symbol::Parameter(_) => Self::PARAMETERS,
             Symbol::Auxiliary(_) | Symbol::Memory(_) => Self::LAWS,
+            Symbol::Acceleration(_) => Self::ACCELERATIONS,
         }
     }
 }
@@ -62,6 +65,7 @@ impl fmt::Display for Dependence {
             (Self::COORDINATES, "coordinates"),
             (Self::VELOCITIES, "velocities"),
             (Self::LAWS, "states of force laws"),
+            (Self::ACCELERATIONS, "accelerations"),
         ];
         let mut separator = "";
         for (kind, name) in kinds {

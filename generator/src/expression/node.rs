@@ -19,6 +19,9 @@ pub enum Symbol {
     Auxiliary(u32),
     /// m\[i\], a discrete state of a force law: constant during a step, updated after an accepted step.
     Memory(u32),
+    /// a\[i\], an acceleration that is given: for functions that start from accelerations, and methods that repeat
+    /// none of the work of the accelerations.
+    Acceleration(u32),
 }
 
 /// A function that is not algebra. Generated code calls it in the runtime by these names.

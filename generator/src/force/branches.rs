@@ -59,6 +59,7 @@ mod tests {
             parameters: &[],
             auxiliaries: &[],
             memory: &[],
+            accelerations: &[],
         };
         // as `bryant_runtime::force::switch::choose`
         let taint = |x: f64| if x.is_finite() { 0.0 } else { f64::NAN };

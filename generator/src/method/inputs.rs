@@ -1,10 +1,11 @@
 //! The inputs of methods: time, coordinates, velocities, states of force laws, parameters, and values that were
 //! computed before.
 //!
-//! Values that are known before a method runs are inputs of its graph. The graph has symbols for all but three kinds of
-//! them. These three (accelerations, event functions, values derived from parameters) are numbered as parameters, after
-//! those of the model.
+//! Values that are known before a method runs are inputs of its graph. The graph has symbols for all but two kinds of
+//! them. These two (event functions, values derived from parameters) are numbered as parameters, after those of the
+//! model.
 
+pub use super::argument::Argument;
 use crate::equations::{Equations, LawState, Variable};
 use crate::expression::Symbol;
 use crate::model::Model;
@@ -52,51 +53,6 @@ impl Input {
         match self {
             Input::Time => Some(Argument::Time),
             _ => self.element().map(|(argument, _)| argument),
-        }
-    }
-}
-
-/// An argument of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Argument {
-    /// t
-    Time,
-    /// q
-    Coordinates,
-    /// v
-    Velocities,
-    /// z
-    Auxiliaries,
-    /// m
-    Memory,
-    /// v̇
-    Accelerations,
-    /// The event functions
-    EventFunctions,
-}
-
-impl Argument {
-    /// The array arguments, in the order in which they are unpacked: z and m first, because a coordinate may have the
-    /// same name.
-    pub const ARRAYS: [Argument; 6] = [
-        Argument::Auxiliaries,
-        Argument::Memory,
-        Argument::Coordinates,
-        Argument::Velocities,
-        Argument::Accelerations,
-        Argument::EventFunctions,
-    ];
-
-    /// The name of the argument in all methods.
-    pub fn name(self) -> &'static str {
-        match self {
-            Argument::Time => "t",
-            Argument::Coordinates => "q",
-            Argument::Velocities => "v",
-            Argument::Auxiliaries => "z",
-            Argument::Memory => "m",
-            Argument::Accelerations => "a",
-            Argument::EventFunctions => "g",
         }
     }
 }
@@ -176,21 +132,16 @@ impl Inputs {
             Input::Auxiliary(i) => Symbol::Auxiliary(i as u32),
             Input::Memory(i) => Symbol::Memory(i as u32),
             Input::Parameter(i) => parameter(i),
-            Input::Acceleration(i) => parameter(self.parameters.len() + i),
-            Input::EventFunction(i) => {
-                parameter(self.parameters.len() + self.accelerations.len() + i)
-            }
-            Input::Derived(i) => parameter(
-                self.parameters.len() + self.accelerations.len() + self.event_functions.len() + i,
-            ),
+            Input::Acceleration(i) => Symbol::Acceleration(i as u32),
+            Input::EventFunction(i) => parameter(self.parameters.len() + i),
+            Input::Derived(i) => parameter(self.parameters.len() + self.event_functions.len() + i),
         }
     }
 
     /// The input of a symbol.
     pub fn input(&self, symbol: Symbol) -> Input {
         let parameters = self.parameters.len();
-        let accelerations = parameters + self.accelerations.len();
-        let event_functions = accelerations + self.event_functions.len();
+        let event_functions = parameters + self.event_functions.len();
         match symbol {
             Symbol::Time => Input::Time,
             Symbol::Coordinate(i) => Input::Coordinate(i as usize),
@@ -199,10 +150,10 @@ impl Inputs {
             Symbol::Memory(i) => Input::Memory(i as usize),
             Symbol::Parameter(i) => match i as usize {
                 i if i < parameters => Input::Parameter(i),
-                i if i < accelerations => Input::Acceleration(i - parameters),
-                i if i < event_functions => Input::EventFunction(i - accelerations),
+                i if i < event_functions => Input::EventFunction(i - parameters),
                 i => Input::Derived(i - event_functions),
             },
+            Symbol::Acceleration(i) => Input::Acceleration(i as usize),
         }
     }
 

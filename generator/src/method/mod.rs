@@ -4,12 +4,14 @@
 //! |---|---|
 //! | here | the methods with their names and sentences |
 //! | `table` | a specification for each emitted method, in the order of the emitted text |
-//! | `inputs` | inputs of methods: arguments, parameters, values computed before |
+//! | `argument` | their arguments |
+//! | `inputs` | their inputs: arguments, parameters, values computed before |
 //! | `results` | how methods return their results |
 //!
 //! [`program`](crate::program) puts the operations of each method in order, and [`target`](crate::target) writes them;
 //! both walk the table.
 
+pub mod argument;
 pub mod inputs;
 pub mod results;
 pub mod table;

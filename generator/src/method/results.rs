@@ -19,6 +19,8 @@ pub enum Results {
     Renewed,
     /// A vector of the length of v.
     Vector,
+    /// A matrix with this number of rows and of columns; the roots are its entries, by rows.
+    Table(usize, usize),
     /// A symmetric matrix of the size of v; the roots are its upper triangle, by rows.
     Matrix,
     /// The model with given parameters and the values derived from them.

@@ -6,16 +6,18 @@
 use super::inputs::{Argument, Inputs};
 use super::results::{Length, Results};
 use super::{Method, Start};
-use crate::equations::{Equations, LawState, Named, Route, Section};
+use crate::equations::{Equations, Function, LawState, Named, Route, Section};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::{Node, NodeId};
 use crate::model::Model;
-use crate::names::snake;
+use crate::names::{Names, snake};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 /// A method before any pass.
 #[derive(Clone, Debug)]
 pub struct Specification {
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The method of the lists that this method is or belongs to; the parts of a method follow one another in the order
     /// of the table. `None` if another method of the lists contains the same results.
     pub part_of: Option<Method>,
@@ -29,6 +31,8 @@ pub struct Specification {
     pub labels: Vec<String>,
     /// How the roots are returned.
     pub results: Results,
+    /// For a function that is asked for, its index in [`Equations::functions`].
+    pub function: Option<usize>,
     /// Values that the method receives as arguments: the event functions, or the accelerations if computing them again
     /// would be most of the method's work.
     pub start: Start,
@@ -79,7 +83,8 @@ pub fn methods(source: &Source<'_>, only: Option<&[&str]>) -> Vec<Specification>
     found
         .chain(sections.map(|section| source.section(section)))
         .chain(outputs(source))
-        .filter(|method| only.is_none_or(|only| only.contains(&method.name)))
+        .chain(functions(source))
+        .filter(|method| only.is_none_or(|only| only.contains(&&*method.name)))
         .collect()
 }
 
@@ -97,7 +102,7 @@ pub fn new(inputs: &Inputs) -> Specification {
 /// once for both.
 pub fn motion(rates: &Specification, accelerations: &Specification) -> Specification {
     Specification {
-        name: "motion",
+        name: "motion".into(),
         part_of: Some(Method::Derivative),
         documentation: "q̇ and, in places behind it, v̇, one by one, each as soon as it is found.",
         roots: [&rates.roots[..], &accelerations.roots].concat(),
@@ -409,16 +414,54 @@ fn outputs(from: &Source<'_>) -> Option<Specification> {
     })
 }
 
+/// The functions that are asked for.
+fn functions(from: &Source<'_>) -> Vec<Specification> {
+    let mut names = Names::with(&[]);
+    let functions = from.equations.functions.iter().enumerate();
+    let specification = |(index, function): (usize, &Function)| {
+        let name = names.take(&snake(&function.name));
+        let label = |row: &String, column: &String| snake(&format!("{name} {row} {column}"));
+        let rows = function.rows.iter();
+        let labels = rows.flat_map(|row| function.columns.iter().map(move |c| label(row, c)));
+        let labels = labels.collect();
+        Specification {
+            labels,
+            part_of: None,
+            documentation: function.sentence,
+            arguments: from.arguments(function),
+            roots: function.values.clone(),
+            function: Some(index),
+            ..of_parameters(
+                "",
+                Method::Derived,
+                Results::Table(function.rows.len(), function.columns.len()),
+            )
+        }
+        .named(name)
+    };
+    functions.map(specification).collect()
+}
+
+impl Specification {
+    fn named(self, name: String) -> Self {
+        Specification {
+            name: name.into(),
+            ..self
+        }
+    }
+}
+
 /// A method of parameters alone, without results so far.
 fn of_parameters(name: &'static str, part_of: Method, results: Results) -> Specification {
     Specification {
-        name,
+        name: name.into(),
         part_of: Some(part_of),
         documentation: part_of.sentence(),
         arguments: Vec::new(),
         roots: Vec::new(),
         labels: Vec::new(),
         results,
+        function: None,
         start: Start::State,
         in_lanes: false,
         of_parts: false,
@@ -465,6 +508,18 @@ impl Source<'_> {
             of_parts: true,
             ..self.of_state(name, section.method, results)
         }
+    }
+
+    /// The arguments that a function always has, and t, z and m if it depends on them.
+    fn arguments(&self, function: &Function) -> Vec<Argument> {
+        let graph = &self.equations.graph;
+        let live = Live::new(graph, &function.values);
+        let inputs = live.nodes().iter().filter_map(|&id| match graph.node(id) {
+            Node::Symbol(symbol) => self.inputs.input(symbol).argument(),
+            _ => None,
+        });
+        let all: BTreeSet<Argument> = inputs.chain(function.arguments.iter().copied()).collect();
+        all.into_iter().collect()
     }
 
     /// The given arguments, preceded by t if the results depend on time (as S and r_s do if a turning vehicle carries a

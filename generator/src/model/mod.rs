@@ -56,5 +56,5 @@ pub use requirement::Requirement;
 pub use rule::Rule;
 pub use surface::{EdgeRule, Ellipsoid, Extent, Mesh, Plane, Round, Shown, Triangles};
 pub use switch::{Active, Switch, Trigger};
-pub use system::{Element, Given, Reference, System, Translation, Vehicle};
+pub use system::{Element, Given, NamedPoint, Reference, System, Translation, Vehicle};
 pub use units::Units;

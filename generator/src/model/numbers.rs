@@ -189,10 +189,14 @@ fn of_element(element: &mut Element) -> impl Iterator<Item = &mut Number> {
         axes,
         angles,
         angular_velocity,
+        points,
     } = element;
     let vectors = [at, cg, inertia, axes, angles, angular_velocity];
     let freedoms = joint.freedoms_mut().iter_mut().flat_map(of_freedom);
-    vectors.into_iter().flatten().chain([mass]).chain(freedoms)
+    let points = points.iter_mut();
+    let points = points.flat_map(|point| point.at.iter_mut().chain(&mut point.angles));
+    let own = vectors.into_iter().flatten().chain([mass]);
+    own.chain(freedoms).chain(points)
 }
 
 fn of_freedom(freedom: &mut Freedom) -> impl Iterator<Item = &mut Number> {

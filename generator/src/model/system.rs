@@ -87,6 +87,17 @@ pub enum Given {
     Acceleration,
 }
 
+/// A frame fixed in an element.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NamedPoint {
+    /// Name, unique among the elements and points of its system.
+    pub name: String,
+    /// Its origin, local frame \[m\].
+    pub at: [Number; 3],
+    /// Bryant angles of its axes relative to the local frame \[rad\].
+    pub angles: [Number; 3],
+}
+
 /// One rigid element.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Element {
@@ -110,6 +121,9 @@ pub struct Element {
     pub angles: [Number; 3],
     /// Initial angular velocity on a ball joint: in space ω in absolute axes \[rad/s\]; in the plane only the second component is used.
     pub angular_velocity: [Number; 3],
+    /// Frames with names.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<NamedPoint>,
 }
 
 impl System {

@@ -4,10 +4,10 @@ use super::lower;
 use super::order::Order;
 use super::plan::{Plan, Procedure};
 use super::schedule::Schedule;
-use super::{Costs, Curve, Facts, List, Lists, Method, Options, Routine, Start};
+use super::{Costs, Curve, Facts, Function, List, Lists, Method, Options, Routine, Start};
 use crate::equations::Equations;
 use crate::law::ForceKind;
-use crate::method::inputs::Inputs;
+use crate::method::inputs::{Argument, Inputs};
 use crate::model::Model;
 use std::ops::Range;
 
@@ -28,14 +28,27 @@ pub fn counted_lists(
     let (costs, motion) = (plan.costs(), plan.motion());
     let Plan { inputs, procedures } = plan;
     let mut parts = Method::ALL.map(|_| Vec::new());
+    let mut functions = Vec::new();
     for procedure in motion.into_iter().chain(procedures) {
-        if let Some(method) = procedure.method.part_of {
+        if let Some(index) = procedure.method.function {
+            let function = &equations.functions[index];
+            functions.push(Function {
+                name: function.name.clone(),
+                identifier: procedure.method.name.clone().into_owned(),
+                sentence: function.sentence,
+                rows: function.rows.clone(),
+                columns: function.columns.clone(),
+                accelerations: function.arguments.contains(&Argument::Accelerations),
+                list: routine(procedure, &inputs).list,
+            });
+        } else if let Some(method) = procedure.method.part_of {
             parts[method as usize].push(routine(procedure, &inputs));
         }
     }
     let lists = Lists {
         facts: Facts::of(model, equations),
         routines: parts.map(together).into(),
+        functions,
         curves: model.curves.iter().map(Curve::from).collect(),
         users: users(model),
         rules: equations.conditions.iter().map(|c| c.rule).collect(),

@@ -79,7 +79,7 @@ pub(crate) fn found(
     found
 }
 
-/// By node: true if the node is live and depends on parameters alone. Accelerations from which a method starts do not
+/// By node: true if the node is live and depends on parameters alone. Event functions from which a method starts do not
 /// count: they change from call to call, although they are numbered as parameters.
 pub(crate) fn alone(method: &Graph, live: &Live, inputs: &Inputs) -> Vec<bool> {
     let mut alone = vec![false; method.len()];

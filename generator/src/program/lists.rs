@@ -40,6 +40,25 @@ impl From<&model::Curve> for Curve {
     }
 }
 
+/// A [function](crate::dynamics::functions) that was asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function {
+    /// Its name, with its argument: "jacobian(arm/hand)".
+    pub name: String,
+    /// Its name in Rust and C: "jacobian_arm_hand".
+    pub identifier: String,
+    /// What it computes.
+    pub sentence: &'static str,
+    /// The names of its rows; a single row may have none.
+    pub rows: Vec<String>,
+    /// The names of its columns; a single column has none.
+    pub columns: Vec<String>,
+    /// True if it depends on given accelerations besides time and state.
+    pub accelerations: bool,
+    /// The computation; its results are the matrix, by rows.
+    pub list: List,
+}
+
 /// A model as lists: everything needed to evaluate it.
 ///
 /// The lists have exactly the operations of the Rust text that [`Config::source`](crate::Config::source) gives with the
@@ -50,6 +69,8 @@ pub struct Lists {
     pub facts: Facts,
     /// By method, in the order of [`Method::ALL`]. The list of a method with nothing to compute has no results.
     pub routines: Vec<Routine>,
+    /// The functions that were asked for, in the order of the requests.
+    pub functions: Vec<Function>,
     /// All curves of the model. [`Function::Curve`](crate::expression::Function::Curve) and its like refer to them by
     /// index.
     pub curves: Vec<Curve>,

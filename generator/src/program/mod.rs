@@ -39,6 +39,7 @@ use crate::expression::count::{Count, Table};
 use crate::expression::live::Live;
 use crate::model::Model;
 use plan::Plan;
+use std::borrow::Cow;
 
 pub use crate::method::{Method, Start};
 pub(crate) use assemble::neighbours;
@@ -46,7 +47,7 @@ pub use assemble::{counted_lists, lists};
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
 pub use join::Methods;
 pub use list::{Input, List, Operation, Value};
-pub use lists::{Curve, Lists, Routine};
+pub use lists::{Curve, Function, Lists, Routine};
 
 /// Options of the generated program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +80,7 @@ impl Default for Options {
 }
 
 /// The operations of methods, each with the method's name.
-pub type Costs = Vec<(&'static str, Table)>;
+pub type Costs = Vec<(Cow<'static, str>, Table)>;
 
 /// The operations of each method of a model after all passes, by section.
 pub fn costs(model: &Model, equations: &Equations, options: &Options) -> Costs {
@@ -102,7 +103,7 @@ pub fn repeated(
     model: &Model,
     equations: &Equations,
     options: &Options,
-) -> Vec<(&'static str, Count)> {
+) -> Vec<(Cow<'static, str>, Count)> {
     let Plan { inputs, procedures } = Plan::new(model, equations, options, None);
     let of = |procedure: &plan::Procedure| {
         let live = Live::new(&procedure.graph, &procedure.roots);
@@ -112,7 +113,7 @@ pub fn repeated(
         let mut count = Count::of_nodes(&procedure.graph, &nodes);
         // A sign does not count as an operation.
         count.neg = 0;
-        (procedure.method.name, count)
+        (procedure.method.name.clone(), count)
     };
     procedures.iter().map(of).collect()
 }

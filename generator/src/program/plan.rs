@@ -2,7 +2,7 @@
 //! alone, which are computed once.
 
 use super::prepare::{Factored, factored, finished};
-use super::{Options, hoist};
+use super::{Costs, Options, hoist};
 use crate::equations::Equations;
 use crate::expression::count::Table;
 use crate::expression::live::Live;
@@ -96,9 +96,11 @@ impl Plan {
     }
 
     /// The operations of each method, by its name.
-    pub(crate) fn costs(&self) -> Vec<(&'static str, Table)> {
+    pub(crate) fn costs(&self) -> Costs {
         let procedures = self.procedures.iter();
-        procedures.map(|of| (of.method.name, of.cost())).collect()
+        procedures
+            .map(|of| (of.method.name.clone(), of.cost()))
+            .collect()
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::Options;
 use super::robot::{Joint, Kind, Limits, Mesh, Mimic, Place, Robot};
-use super::tree::{Carried, Element, Forest, Freedom};
+use super::tree::{Carried, Element, Forest, Freedom, Marker};
 use crate::model::Triangles;
-use crate::rotation::{Vector, add, apply, bryant_angles, length, product, subtract};
+use crate::rotation::{Matrix, Vector, add, apply, bryant_angles, length, product, subtract};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -456,7 +456,26 @@ impl Writer<'_> {
             [one] => write!(text, ", mesh: {one}")?,
             all => write!(text, ", mesh: [{}]", all.join(", "))?,
         }
+        let points = self.points(element);
+        if !points.is_empty() {
+            write!(text, ", points: [{}]", points.join(", "))?;
+        }
         writeln!(text, " }}")
+    }
+
+    /// The links without mass that are fixed to an element, as points.
+    fn points(&self, element: &Element) -> Vec<String> {
+        let systems = &self.forest.systems;
+        let is_here = |(s, e): (usize, usize)| systems[s].elements[e].link == element.link;
+        let markers = self.forest.markers.iter();
+        let here = markers.filter(|marker| marker.on.is_some_and(is_here));
+        let text = |marker: &Marker| {
+            let name = &self.links.given[marker.link];
+            let placed = &self.forest.placed[marker.link];
+            let frame = frame(placed.at, &placed.turn, element.origin);
+            format!("{{ name: {name}{frame} }}")
+        };
+        here.map(text).collect()
     }
 
     /// The meshes of all links of an element, which has the name of this link, or of all links at rest, each with its link.
@@ -468,8 +487,7 @@ impl Writer<'_> {
         let text = |(link, mesh): (usize, &Mesh)| {
             let placed = &self.forest.placed[link];
             let place = add(placed.at, apply(&placed.turn, mesh.frame.at));
-            let size = length(place).max(length(origin));
-            let angles = bryant_angles(&product(&placed.turn, &mesh.frame.turn));
+            let frame = frame(place, &product(&placed.turn, &mesh.frame.turn), origin);
             let mut text = match &mesh.of {
                 Triangles::File(file) => {
                     let file = file.replace(['"', '\\'], "/");
@@ -483,15 +501,7 @@ impl Writer<'_> {
                 Triangles::File(_) if mesh.scale == [1.0; 3] => {}
                 Triangles::File(_) => text += &format!(", scale: {}", list(&mesh.scale)),
             }
-            let at = vector(subtract(place, origin), size);
-            if at != list(&[0.0; 3]) {
-                text += &format!(", at: {at}");
-            }
-            let angles = angles.map(|angle| without_rounding(angle, 1.0));
-            if angles != [0.0; 3] {
-                text += &format!(", angles: {}", list(&angles));
-            }
-            (link, text + " }")
+            (link, text + &frame + " }")
         };
         each.map(text).collect()
     }
@@ -610,23 +620,17 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Frames: links without mass, and links that are at rest.
+    /// Links that are at rest.
     fn frames(&self, text: &mut String) -> std::fmt::Result {
-        if !self.forest.markers.is_empty() {
-            writeln!(text, "# Links without mass, as points of elements:")?;
-        }
-        for marker in &self.forest.markers {
-            let on = match marker.on {
-                None => "frame".to_owned(),
-                Some((s, e)) => format!(
-                    "{}/{}",
-                    self.system(s),
-                    self.links.given[self.forest.systems[s].elements[e].link]
-                ),
-            };
+        let at_rest = self
+            .forest
+            .markers
+            .iter()
+            .filter(|marker| marker.on.is_none());
+        for marker in at_rest {
             writeln!(
                 text,
-                "#   {}: on {on}, at {}",
+                "# A link without mass that stands still: {}, at {}",
                 self.links.given[marker.link],
                 vector(marker.at, 1.0)
             )?;
@@ -646,4 +650,18 @@ impl Writer<'_> {
         }
         Ok(())
     }
+}
+
+/// The place of a frame from an origin, and the angles of its axes; nothing for what is 0.
+fn frame(place: Vector, turn: &Matrix, origin: Vector) -> String {
+    let size = length(place).max(length(origin));
+    let (at, mut text) = (vector(subtract(place, origin), size), String::new());
+    if at != list(&[0.0; 3]) {
+        text += &format!(", at: {at}");
+    }
+    let angles = bryant_angles(turn).map(|angle| without_rounding(angle, 1.0));
+    if angles != [0.0; 3] {
+        text += &format!(", angles: {}", list(&angles));
+    }
+    text
 }

@@ -234,6 +234,7 @@ fn accelerations(model: &Model, t: f64, q: &[f64], v: &[f64]) -> Vec<(String, f6
         velocities: v,
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
         parameters: &parameters,
     };
     let law = |function: Function, a: &[f64]| law(model, function, a);

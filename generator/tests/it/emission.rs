@@ -246,6 +246,7 @@ fn the_text_evaluates_to_what_the_graph_means() {
             parameters: &parameters,
             auxiliaries: &[],
             memory: &m,
+            accelerations: &[],
         };
         let expected = |roots: &[NodeId]| {
             let functions =

@@ -52,6 +52,7 @@ fn values(equations: &Equations, roots: &[NodeId], q: &[f64], v: &[f64]) -> Vec<
         parameters: &[],
         auxiliaries: &[],
         memory: &charts,
+        accelerations: &[],
     };
     evaluate(&equations.graph, roots, &inputs, &|f, a: &[f64]| {
         choices(f, a)
@@ -189,6 +190,7 @@ fn check(text: &str, states: usize) {
                 parameters: &[],
                 auxiliaries: &[],
                 memory: &charts,
+                accelerations: &[],
             };
             let roots = [oracle.mass_matrix.concat(), oracle.velocity_forces.clone()].concat();
             let expected = evaluate(&oracle.graph, &roots, &inputs, &|f, a: &[f64]| {

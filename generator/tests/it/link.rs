@@ -316,6 +316,7 @@ fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'sta
             parameters: &[1.3],
             auxiliaries: &[],
             memory: &vec![0.0; layout.charts()],
+            accelerations: &[],
         };
         evaluate(
             &graph,

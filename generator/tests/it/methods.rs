@@ -39,8 +39,8 @@ fn every_method_of_the_lists_has_an_entry() {
         let motion = both.map(|(rates, accelerations)| motion(rates, accelerations));
         let mut names = BTreeSet::new();
         for method in methods.iter().chain(&motion) {
-            let name = method.name;
-            assert!(names.insert(name), "two methods are called {name}");
+            let name = method.name.clone();
+            assert!(names.insert(name.clone()), "two methods are called {name}");
             assert_eq!(method.labels.len(), method.roots.len(), "{name}");
             assert!(!method.documentation.is_empty(), "{name}");
             found.extend(method.part_of);

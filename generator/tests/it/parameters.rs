@@ -31,7 +31,7 @@ fn what_parameters_alone_decide_is_computed_once() {
             {
                 // the start of a run is computed once, and so is whether it is allowed
                 let once = ["new", "initial_conditions", "initial_memory", "conditions"];
-                if !once.contains(&method) {
+                if !once.contains(&&*method) {
                     assert!(count.is_empty(), "{path}: {method}: {count}");
                 }
             }

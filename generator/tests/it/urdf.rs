@@ -225,6 +225,7 @@ fn motion(model: &Model) -> Vec<f64> {
             parameters: &[],
             auxiliaries: &[],
             memory: &[],
+            accelerations: &[],
         };
         let mut roots = equations.accelerations.clone();
         roots.push(equations.section(Method::KineticEnergy)[0].value);
@@ -782,6 +783,7 @@ fn driven(yaml: &str, parameters: &[f64]) -> f64 {
         parameters,
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
     };
     let no_call = |f, _: &[f64]| panic!("no {f:?} in these models");
     evaluate(

@@ -105,6 +105,7 @@ fn values(
         parameters: &parameters,
         auxiliaries: &state.z,
         memory: &state.m,
+        accelerations: &[],
     };
     let (value, scatter) =
         Rounded::new(graph, roots).evaluate(&inputs, &engine.functions(model), f64::EPSILON);

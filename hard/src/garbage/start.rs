@@ -52,6 +52,7 @@ impl<'a> Start<'a> {
                 velocities: v,
                 parameters,
                 auxiliaries: z,
+                accelerations: &[],
                 memory: m,
             };
             evaluate(&equations.graph, roots, &inputs, &functions)

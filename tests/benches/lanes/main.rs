@@ -171,7 +171,7 @@ fn operations(path: &str) -> usize {
     };
     let costs = program::costs(&model, &derive_with(&model, options), &emitted);
     let part = ["accelerations", "coordinate_rates"];
-    let parts = costs.iter().filter(|(method, _)| part.contains(method));
+    let parts = costs.iter().filter(|(method, _)| part.contains(&&**method));
     parts.map(|(_, table)| table.total.total()).sum()
 }
 

@@ -191,6 +191,7 @@ impl Scene {
             v: [body.velocity, body.omega].concat(),
             z: z.to_vec(),
             m: names.map(|name| remembered(name)).collect(),
+            a: Vec::new(),
         }
     }
 
@@ -204,6 +205,7 @@ impl Scene {
             parameters: &[],
             auxiliaries: &state.z,
             memory: &state.m,
+            accelerations: &[],
         };
         let roots = self.equations.auxiliaries.iter().map(|state| state.next);
         let roots: Vec<_> = roots.collect();

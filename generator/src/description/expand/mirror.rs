@@ -172,6 +172,10 @@ impl Expander<'_> {
                 }
                 image.change("axes", |n| self.axial(n));
                 image.change("mesh", |n| self.mesh(n));
+                image.change("points", |n| Node {
+                    span: n.span,
+                    kind: Kind::List(n.items().iter().map(|n| self.point(n)).collect()),
+                });
                 image.change("inertia", |n| self.tensor(n));
                 if let Some(anatomy) = image.get_mut("anatomy") {
                     for key in ["forward", "up"] {
@@ -561,13 +565,7 @@ impl Expander<'_> {
                 kind: Kind::Map(vec![entry("file", mesh.clone())]),
             },
         };
-        image.change("at", |n| self.polar(n));
-        image.change("angles", |n| match n.kind {
-            // the one about y
-            Kind::Scalar { .. } if self.words.axis != 1 => negated(n),
-            Kind::Scalar { .. } => n.clone(),
-            _ => self.three(n, |axis, mirror| axis != mirror),
-        });
+        self.frame(&mut image);
         let scale = match image.get("scale") {
             Some(scale) if !scale.items().is_empty() => scale.clone(),
             Some(scale) => list(vec![scale.clone(); 3]),
@@ -575,6 +573,27 @@ impl Expander<'_> {
         };
         image.set("scale", self.three(&scale, |axis, mirror| axis == mirror));
         image
+    }
+
+    /// The image of a point with a name.
+    fn point(&self, point: &Node) -> Node {
+        let mut image = point.clone();
+        if let Some(name) = point.get("name").and_then(|n| self.image_name(n, "point")) {
+            image.change("name", |n| n.with_text(name));
+        }
+        self.frame(&mut image);
+        image
+    }
+
+    /// Turns the place and the axes of a frame into their images.
+    fn frame(&self, frame: &mut Node) {
+        frame.change("at", |n| self.polar(n));
+        frame.change("angles", |n| match n.kind {
+            // the one about y
+            Kind::Scalar { .. } if self.words.axis != 1 => negated(n),
+            Kind::Scalar { .. } => n.clone(),
+            _ => self.three(n, |axis, mirror| axis != mirror),
+        });
     }
 
     /// Three numbers, also in the plane, those of some axes negated.

@@ -319,6 +319,7 @@ fn at_defaults<const N: usize>(values: [Expr<'_>; N], defaults: &[f64]) -> [f64;
         parameters: defaults,
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
     };
     let roots = values.map(|value| value.id());
     let found = evaluate(values[0].graph(), &roots, &inputs, &NoFunctions);

@@ -305,6 +305,7 @@ mod tests {
             parameters: &[3.0],
             auxiliaries: &[],
             memory: &[],
+            accelerations: &[],
         };
         let (mut resistance, mut turning) = (Matrix3::zeros(), Matrix3::zeros());
         for answer in &answers {

@@ -114,6 +114,43 @@ pub fn cheaper_matrices<'g>(
     }
 }
 
+/// Replaces the forces that a system needs for given v̇ by those in link frames, if these take fewer operations.
+pub fn cheaper_inverse_dynamics<'g>(
+    spatial: &Spatial<'g, '_>,
+    applied: &AppliedForces<'g>,
+    accelerations: &[Expr<'g>],
+    forces: &mut [Expr<'g>],
+) {
+    let Some(tree) = Tree::of(spatial, Some(applied)) else {
+        return;
+    };
+    let tree = tree.accelerated(accelerations, applied.wrenches.fields[spatial.system]);
+    let choice = search::choice(&tree, Aim::InverseDynamics);
+    let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
+    let written = Written {
+        tree: &tree,
+        framed: &framed,
+        choice: &choice,
+    };
+    let motions = motion::motion(&tree, &framed, &choice, Reference::Rest);
+    let needed = forces::needed(&written, &motions);
+    let name = |k: usize| spatial.label(tree.links[k].element);
+    let mut in_links = vec![spatial.graph.constant(0.0); forces.len()];
+    for (row, power) in forces::powers(&written, needed, &name).terms {
+        in_links[row] = in_links[row] + power;
+    }
+    for (k, link) in tree.links.iter().enumerate() {
+        if let LinkJoint::Axis { armature, .. } = link.joint {
+            let own = written.share(k).squared() * armature * accelerations[link.row];
+            in_links[link.row] = in_links[link.row] + own;
+        }
+    }
+    let rows = spatial.layout.system_velocities(spatial.system);
+    if cost(spatial.graph, &in_links[rows.clone()]) < cost(spatial.graph, &forces[rows.clone()]) {
+        forces[rows.clone()].copy_from_slice(&in_links[rows]);
+    }
+}
+
 /// Replaces v̇ of the system by v̇ from S in link frames, if this takes fewer operations.
 pub fn cheaper_accelerations<'g>(
     spatial: &Spatial<'g, '_>,

@@ -199,9 +199,6 @@ pub fn motion<'g>(
     for (k, link) in tree.links.iter().enumerate() {
         let parent = link.parent.map_or(&ground, |p| &motions[p]);
         let mut motion = of_link(tree, framed, choice, reference, k, parent);
-        if link.parent.is_none() && tree.free {
-            motion.acceleration = Vec3::zero(tree.graph);
-        }
         if let (0, Some([omega, alpha, acceleration])) = (k, tree.carrier) {
             (motion.omega, motion.alpha, motion.acceleration) = (omega, alpha, acceleration);
         }
@@ -252,12 +249,18 @@ fn of_link<'g>(
         }
         LinkJoint::Axis {
             rate,
+            acceleration,
             absolute: true,
             ..
-        } => motion.omega.0[2] = frame.sign * *rate,
+        } => {
+            motion.omega.0[2] = frame.sign * *rate;
+            motion.alpha.0[2] = frame.sign * *acceleration;
+        }
         LinkJoint::Axis {
             turn,
+            slide: advance,
             rate,
+            acceleration,
             coupled,
             ..
         } => {
@@ -276,6 +279,11 @@ fn of_link<'g>(
                 false => choice.links[k].reference,
             };
             motion.accelerate(*turn != 0.0, slides.is_some(), chosen);
+            let along = &mut motion.acceleration.0[2];
+            *along = *along + (frame.sign / choice.unit) * *advance * *acceleration;
+            if *turn != 0.0 {
+                motion.alpha.0[2] = motion.alpha.0[2] + frame.sign * *acceleration;
+            }
         }
     }
     motion

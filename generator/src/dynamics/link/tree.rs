@@ -45,7 +45,7 @@ pub struct Ground<'g> {
     /// Angular acceleration α, in its axes.
     pub alpha: Vec3<'g>,
     /// Acceleration of the reference joint minus the field common to all elements, in the ground's axes; 0 for a free
-    /// reference joint.
+    /// reference joint unless accelerations are given.
     pub acceleration: Vec3<'g>,
     /// φ in the plane, 0 in space.
     pub angle: Expr<'g>,
@@ -114,6 +114,9 @@ pub enum LinkJoint<'g> {
         ratio: Expr<'g>,
         /// The inertia that only this velocity moves.
         armature: Expr<'g>,
+        /// The acceleration of the joint beside that of the reference motion; 0 unless accelerations are
+        /// [given](Tree::accelerated).
+        acceleration: Expr<'g>,
         /// True if other links share the same row.
         coupled: bool,
         /// True for a hinge in the plane whose angle is absolute, so that the turning of its carrier does not turn it.
@@ -172,6 +175,7 @@ fn joints<'g>(
                 acting: zero,
                 ratio: one,
                 armature: zero,
+                acceleration: zero,
                 coupled: false,
                 absolute: true,
             };
@@ -205,6 +209,7 @@ fn joints<'g>(
             acting: acting.get(i).copied().unwrap_or(graph.constant(0.0)),
             ratio: shares[i].ratio,
             armature: number(graph, &freedom.armature),
+            acceleration: graph.constant(0.0),
             coupled: false,
             absolute: false,
         };
@@ -283,6 +288,32 @@ impl<'g> Tree<'g> {
         Some(tree)
     }
 
+    /// The tree whose joints accelerate: with these v̇, and a free base against this field, in the reference motion of
+    /// v̇ = 0.
+    pub fn accelerated(mut self, given: &[Expr<'g>], field: Vec3<'g>) -> Self {
+        for link in &mut self.links {
+            match &mut link.joint {
+                LinkJoint::Ball { bias, columns, .. } => {
+                    let own = [0, 1, 2].map(|i| given[link.row + i]);
+                    *bias = *bias + columns.times(Vec3(own));
+                }
+                LinkJoint::Axis {
+                    acceleration,
+                    ratio,
+                    ..
+                } => *acceleration = *ratio * given[link.row],
+            }
+        }
+        if let Some(base) = self.base {
+            self.ground.acceleration = -field;
+            for (i, &direction) in self.directions.iter().enumerate() {
+                let along = &mut self.ground.acceleration.0[direction];
+                *along = *along + given[base + i];
+            }
+        }
+        self
+    }
+
     /// True if any quantity is in absolute axes: a force on a link, a ball other than that of a free first link, or, in
     /// the plane, a free first link.
     pub fn needs_axes(&self) -> bool {
@@ -327,6 +358,7 @@ impl<'g> Tree<'g> {
                     acting,
                     ratio,
                     armature,
+                    acceleration,
                     coupled,
                     absolute,
                 } => LinkJoint::Axis {
@@ -338,6 +370,7 @@ impl<'g> Tree<'g> {
                     acting: of(acting),
                     ratio: of(ratio),
                     armature: of(armature),
+                    acceleration: of(acceleration),
                     coupled,
                     absolute,
                 },

@@ -57,6 +57,57 @@ pub fn applied_forces<'g>(
     }
 }
 
+/// Sets the rows of the forces that the system needs for these v̇, beyond those in `applied`, of which only wrenches and
+/// fields count.
+pub fn inverse_dynamics<'g>(
+    spatial: &Spatial<'g, '_>,
+    applied: &AppliedForces<'g>,
+    accelerations: &[Expr<'g>],
+    forces: &mut [Expr<'g>],
+) {
+    let graph = spatial.graph;
+    let mut reference = reference_acceleration(graph, spatial.of_system(), spatial.motion);
+    if let Some(rows) = spatial.layout.reference_velocities(spatial.system) {
+        for (row, &direction) in rows.zip(spatial.layout.directions) {
+            reference.0[direction] = reference.0[direction] + accelerations[row];
+        }
+    }
+    let field = applied.wrenches.fields[spatial.system];
+    let biases = spatial.origin_biases(reference - field);
+    let none = Vec3::zero(graph);
+    // the contributions of v̇ to the accelerations of each element
+    let (mut turns, mut slides): (Vec<Vec3<'g>>, Vec<Vec3<'g>>) = (Vec::new(), Vec::new());
+    let mut needed = Vec::new();
+    for (k, (body, bias)) in spatial.bodies().iter().zip(biases).enumerate() {
+        graph.section(format!("inverse dynamics of {}", spatial.label(k)));
+        let motion = spatial.motion_of(k);
+        let (mut turn, mut slide) = (none, none);
+        if let Some(parent) = spatial.of_system().elements[k].parent {
+            slide = slides[parent] + turns[parent].cross(motion.offset);
+            if motion.turns_with_carrier {
+                turn = turns[parent];
+            }
+        }
+        for column in spatial.columns(k) {
+            let given = accelerations[column.row];
+            turn = turn + given * column.axis;
+            slide = slide + given * column.slide;
+            forces[column.row] = forces[column.row] + column.armature * given;
+        }
+        let wrench = spatial.inertia(k, body, bias + slide);
+        let load = &applied.wrenches.elements[spatial.system][k];
+        needed.push(Wrench {
+            force: wrench.force + turn.cross(body.first_moment) - load.force,
+            moment: wrench.moment + body.inertia.times(turn) - load.moment,
+        });
+        turns.push(turn);
+        slides.push(slide);
+    }
+    for (row, power) in powers(spatial, needed, "inverse dynamics") {
+        forces[row] = forces[row] + power;
+    }
+}
+
 /// The power of a wrench on each element per velocity, by row: the sum over all elements that the velocity moves.
 fn powers<'g>(
     spatial: &Spatial<'g, '_>,

@@ -28,7 +28,7 @@ mod mass_matrix;
 
 use crate::motion::{ElementMotion, Layout, Motion};
 pub use articulated_body::accelerations;
-pub use inverse_dynamics::{applied_forces, velocity_forces};
+pub use inverse_dynamics::{applied_forces, inverse_dynamics, velocity_forces};
 pub use mass_matrix::mass_matrix;
 
 use super::factorization;
@@ -63,13 +63,13 @@ pub struct Spatial<'g, 'a> {
 
 /// A column (s, e) of a velocity of an element: s moves the origin relative to the carrier, e turns the element.
 #[derive(Clone, Copy)]
-struct Column<'g> {
+pub struct Column<'g> {
     /// Index in v.
-    row: usize,
+    pub row: usize,
     /// Inertia that only this velocity moves.
     armature: Expr<'g>,
-    slide: Vec3<'g>,
-    axis: Vec3<'g>,
+    pub slide: Vec3<'g>,
+    pub axis: Vec3<'g>,
 }
 
 /// A wrench: a force at the origin of an element and a moment about it, in absolute axes.
@@ -81,7 +81,7 @@ pub struct Wrench<'g> {
 
 impl<'g> Column<'g> {
     /// The power s · f + e · n.
-    fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
+    pub fn power(&self, wrench: &Wrench<'g>) -> Expr<'g> {
         self.slide.dot(wrench.force) + self.axis.dot(wrench.moment)
     }
 }
@@ -103,7 +103,7 @@ impl<'g> Wrench<'g> {
     }
 
     /// The wrench that the carrier of an element feels from a wrench on the element.
-    fn on_carrier(self, of: &ElementMotion<'g>) -> Self {
+    pub fn on_carrier(self, of: &ElementMotion<'g>) -> Self {
         let moment = of.offset.cross(self.force);
         Wrench {
             force: self.force,
@@ -173,7 +173,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
 
     /// The velocities of an element's joint. If a degree of freedom follows another, its column belongs to the leader's
     /// velocity.
-    fn columns(&self, element: usize) -> Vec<Column<'g>> {
+    pub fn columns(&self, element: usize) -> Vec<Column<'g>> {
         let motion = self.motion_of(element);
         let none = Vec3::zero(self.graph);
         let slides = motion.slides.iter().copied();
@@ -200,7 +200,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
     }
 
     /// The bodies of single elements, about their origins.
-    fn bodies(&self) -> Vec<AugmentedBody<'g>> {
+    pub fn bodies(&self) -> Vec<AugmentedBody<'g>> {
         let elements = self.of_system().elements.iter().enumerate();
         let origin = Vec3::zero(self.graph);
         elements

@@ -49,6 +49,7 @@ pub fn symbol_name(symbol: Symbol) -> String {
         Symbol::Parameter(i) => format!("p{}", i + 1),
         Symbol::Auxiliary(i) => format!("z{}", i + 1),
         Symbol::Memory(i) => format!("m{}", i + 1),
+        Symbol::Acceleration(i) => format!("a{}", i + 1),
     }
 }
 

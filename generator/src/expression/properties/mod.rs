@@ -48,6 +48,7 @@ fn values(graph: &Graph, roots: &[NodeId], state: &State) -> Vec<Bounded> {
         parameters: &[p],
         auxiliaries: &[],
         memory: &[],
+        accelerations: &[],
     };
     evaluate(graph, roots, &inputs, &Curves)
 }
@@ -133,6 +134,7 @@ proptest! {
                 parameters: &[p],
                 auxiliaries: &[],
                 memory: &[],
+                accelerations: &[],
             };
             let dual = evaluate(&graph, &roots, &inputs, &Curves);
             let dual: Vec<Bounded> = dual.iter().map(|d| d.derivative).collect();

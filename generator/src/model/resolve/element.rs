@@ -3,13 +3,13 @@
 use super::follows::couple;
 use super::joint::joint_of;
 use super::{NOWHERE, Resolver, name::Style};
-use crate::description::element::Element as Written;
+use crate::description::element::{Element as Written, NamedPoint as WrittenPoint};
 use crate::description::measure::Inertia;
 use crate::description::place::At;
 use crate::description::quantity::{Number as WrittenNumber, OneOrThree};
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::requirement::ROUNDING;
-use crate::model::{Element, Number};
+use crate::model::{Element, NamedPoint, Number};
 use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -49,6 +49,7 @@ pub(super) fn tree(
             }
         }
     }
+    check_points(resolver, written, list);
     let parents = parents(resolver, system, written, &index, list);
     let order = parents_first(resolver, written, &parents, list);
     let mut place = vec![None; written.len()];
@@ -252,10 +253,44 @@ fn element(
         axes,
         angles: NOWHERE,
         angular_velocity: NOWHERE,
+        points: points(resolver, written.points.as_deref(), here.key("points")),
     };
     let owner = format!("{system}/{}", written.name);
     resolver.judge(element.requirements(&owner, resolver.dimension()), here);
     element
+}
+
+/// The frames of an element.
+fn points(
+    resolver: &Resolver<'_>,
+    written: Option<&[WrittenPoint]>,
+    list: At<'_>,
+) -> Vec<NamedPoint> {
+    let points = written.unwrap_or_default().iter().enumerate();
+    let point = |(index, written): (usize, &WrittenPoint)| {
+        let here = list.item(index);
+        resolver.check_name(&written.name, "a point", Style::Either, here.key("name"));
+        let (at, angles) = (written.at.as_ref(), written.angles.as_ref());
+        NamedPoint {
+            name: written.name.clone(),
+            at: at.map_or(NOWHERE, |at| resolver.vector(at, here.key("at"))),
+            angles: angles.map_or(NOWHERE, |of| resolver.rotation(of, here.key("angles"))),
+        }
+    };
+    points.map(point).collect()
+}
+
+/// Reports points that have the name of an element or of another point.
+fn check_points(resolver: &Resolver<'_>, written: &[Written], list: At<'_>) {
+    let mut names: Vec<&str> = written.iter().map(|element| &*element.name).collect();
+    for (i, element) in written.iter().enumerate() {
+        for (k, point) in element.points.iter().flatten().enumerate() {
+            let at = list.item(i).key("points").item(k).key("name");
+            let earlier = names.iter().copied();
+            resolver.check_unique(&point.name, "elements or points", earlier, at);
+            names.push(&point.name);
+        }
+    }
 }
 
 /// Principal moments and Bryant angles of the principal axes of an inertia tensor of six numbers, in space; `None` if

@@ -15,6 +15,8 @@ pub(super) struct Body {
     pub uses_time: bool,
     /// True if the statements use `y`.
     pub uses_state: bool,
+    /// True if the statements use `accelerations`.
+    pub uses_accelerations: bool,
 }
 
 /// Writes a list as statements that store its results to `results[0]`, `results[1]` and so on. `m` is a pointer to the
@@ -54,6 +56,7 @@ pub(super) fn body(list: &List, curve: &dyn Fn(u32) -> String, support: &mut Sup
         uses_model: reads(|i| matches!(i, Input::Parameter(_) | Input::Derived(_))),
         uses_time: reads(|i| matches!(i, Input::Time)),
         uses_state: reads(|i| matches!(i, Input::State(_))),
+        uses_accelerations: reads(|i| matches!(i, Input::Acceleration(_))),
         text,
     }
 }

@@ -1,10 +1,10 @@
 //! The functions of a model: their declarations for the header, their definitions for the source.
 
 use super::body::{Body, body};
-use super::number;
 use super::support::Support;
+use super::{comment, number};
 use crate::model::Rule;
-use crate::program::{Lists, Method, Start};
+use crate::program::{self, Lists, Method, Start};
 use std::fmt::Write as _;
 
 /// A function that the header declares.
@@ -55,7 +55,44 @@ impl Methods<'_> {
             }
         }
         functions.push(self.normalize());
+        for function in &self.lists.functions {
+            let method = Method::named(&function.identifier);
+            if !method.is_some_and(|method| self.exists(method)) {
+                functions.push(self.function(function));
+            }
+        }
         functions
+    }
+
+    /// A function that was asked for.
+    fn function(&mut self, function: &program::Function) -> Function {
+        let (name, short) = (self.name, &function.identifier);
+        let curve = |index: u32| format!("{name}_curve_{index}");
+        let statements = body(&function.list, &curve, self.support);
+        let given = match function.accelerations {
+            true => ", const double accelerations[]",
+            false => "",
+        };
+        let mut silent = silent(&statements, Start::State);
+        if function.accelerations && !statements.uses_accelerations {
+            silent.push_str("    (void)accelerations;\n");
+        }
+        let shape = match (function.rows.len(), function.columns.len()) {
+            (1, 1) => "One number.".to_owned(),
+            (rows, 1) => format!("{rows} numbers."),
+            (rows, columns) => format!("{rows} rows of {columns} numbers."),
+        };
+        Function {
+            about: comment_of(&comment(&format!(
+                "{}: {} {shape}",
+                function.name, function.sentence
+            ))),
+            head: format!(
+                "void {name}_{short}(const {name}_model *m, double t, const double y[]{given}, double results[])"
+            ),
+            before: String::new(),
+            body: format!("{{\n{}{silent}}}\n", statements.text),
+        }
     }
 
     fn exists(&self, method: Method) -> bool {

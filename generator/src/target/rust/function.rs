@@ -177,7 +177,7 @@ impl Writer<'_> {
     }
 
     fn task_type(&self, i: usize) -> proc_macro2::Ident {
-        format_ident!("{}Task{}", camel(self.method.name), i + 1)
+        format_ident!("{}Task{}", camel(&self.method.name), i + 1)
     }
 
     /// The type that a piece returns.
@@ -213,7 +213,7 @@ impl Writer<'_> {
     }
 
     fn part_type(&self, i: usize) -> proc_macro2::Ident {
-        format_ident!("{}Part{}", camel(self.method.name), i + 1)
+        format_ident!("{}Part{}", camel(&self.method.name), i + 1)
     }
 
     /// The arguments that a piece reads.

@@ -186,7 +186,7 @@ impl State {
         let Self {
             split, arguments, ..
         } = self;
-        let (name, at_parts) = (ident(method.name), ident(&method_name(method)));
+        let (name, at_parts) = (ident(&method.name), ident(&method_name(method)));
         let inline = method.in_lanes.then(|| quote!(#[inline(always)]));
         let results = quote!(self.#at_parts(#arguments));
         let results = match method.results {

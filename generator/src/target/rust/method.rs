@@ -17,6 +17,7 @@ use crate::program::schedule::Schedule;
 use crate::program::split::pieces;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use syn::{Block, ImplItemFn, parse_quote};
 
@@ -26,7 +27,7 @@ use syn::{Block, ImplItemFn, parse_quote};
 pub(crate) fn method_name(method: &Specification) -> String {
     match method.of_parts {
         true => format!("{}_at", method.name),
-        false => method.name.to_owned(),
+        false => method.name.to_string(),
     }
 }
 
@@ -37,7 +38,7 @@ pub(crate) fn constructs(method: &Specification) -> bool {
 
 /// A method as text.
 pub(crate) struct Function {
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// The pieces of the method, if it has any, and the method.
     pub methods: Vec<ImplItemFn>,
     /// The structs that the pieces return.
@@ -63,7 +64,10 @@ pub(crate) fn write(
     let schedule = Schedule::new(graph, roots, labels, inputs, Order::of(results), puts);
     let long = schedule.lines.len() > options.merged && !constructs(&method);
     let pieces = pieces(&schedule, options.statements);
-    let (name, operations) = (method.name, Table::of(&schedule.graph, &schedule.roots));
+    let (name, operations) = (
+        method.name.clone(),
+        Table::of(&schedule.graph, &schedule.roots),
+    );
     let writer = Writer {
         names: Naming::new(&schedule, labels, inputs, &method.arguments),
         apart: long && pieces.len() > 1,
@@ -116,14 +120,14 @@ pub(crate) fn public_method(
         )];
     }
     let asked = method.start == Start::Accelerations;
-    let arguments = method
-        .arguments
-        .iter()
-        .filter(|&&argument| argument != Argument::Accelerations);
+    // a method that starts from v̇ computes them, a function is given them
+    let computed = |argument: &Argument| asked && *argument == Argument::Accelerations;
+    let arguments = method.arguments.iter().filter(|of| !computed(of));
     let given: Vec<_> = arguments.clone().map(|a| ident(a.name())).collect();
     let every = arguments.clone().map(|argument| argument.declaration(true));
     let arguments =
         arguments.map(|argument| argument.declaration(asked || reads.contains(argument)));
+    let inline = (method.in_lanes || method.function.is_some()).then(|| quote!(#[inline(always)]));
     if let Results::Written { by, length } = method.results {
         debug_assert!(
             !asked,
@@ -157,7 +161,6 @@ pub(crate) fn public_method(
         );
         return in_array.into_iter().chain([one_by_one]).collect();
     }
-    let inline = method.in_lanes.then(|| quote!(#[inline(always)]));
     let mut written = with_body(
         body,
         parse_quote! {

@@ -48,7 +48,8 @@ pub const GENERATED_CODE_VERSION: u32 = 18;
 
 /// The text of the module of a model. It depends only on the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {
-    let plan = Plan::new(model, equations, options, None);
+    let mut plan = Plan::new(model, equations, options, None);
+    drop_repeated(&mut plan.procedures);
     let library = Library::new(model);
     let mut calls = Calls::default();
     for procedure in &plan.procedures {
@@ -109,6 +110,13 @@ pub fn module(model: &Model, equations: &Equations, options: &Options) -> String
     )
 }
 
+/// Leaves out functions that are asked for but are methods of each model: both would have one name.
+fn drop_repeated(procedures: &mut Vec<Procedure>) {
+    let methods = procedures.iter().filter(|of| of.method.function.is_none());
+    let names: Vec<_> = methods.map(|of| of.method.name.clone()).collect();
+    procedures.retain(|of| of.method.function.is_none() || !names.contains(&of.method.name));
+}
+
 /// Writes the methods. The method for v̇ calls a part of the method for q̇ and v̇.
 fn functions(
     procedures: Vec<Procedure>,
@@ -118,7 +126,8 @@ fn functions(
     options: &Options,
 ) -> Vec<Function> {
     let written = procedures.into_iter().map(|procedure| {
-        let at_once = motion.take_if(|_| procedure.method.part_of.is_none());
+        let method = &procedure.method;
+        let at_once = motion.take_if(|_| method.part_of.is_none() && method.function.is_none());
         match at_once {
             Some(motion) => {
                 let part = method::part_of(&procedure.method, EACH_MOTION, "COORDINATES");

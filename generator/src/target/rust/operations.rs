@@ -70,7 +70,7 @@ pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Func
     table(
         text,
         "section",
-        functions.iter().map(|function| function.name),
+        functions.iter().map(|function| &*function.name),
         sections,
     );
 }

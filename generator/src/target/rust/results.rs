@@ -25,6 +25,17 @@ pub(crate) fn returned(results: Results) -> TokenStream {
         Results::Renewed => {
             quote!(([T; COORDINATES], [T; VELOCITIES], [T; MEMORY]))
         }
+        Results::Table(rows, columns) => {
+            let (rows, columns) = (
+                Literal::usize_unsuffixed(rows),
+                Literal::usize_unsuffixed(columns),
+            );
+            match (results, columns.to_string() == "1") {
+                (Results::Table(1, 1), _) => quote!(T),
+                (_, true) => quote!([T; #rows]),
+                (_, false) => quote!([[T; #columns]; #rows]),
+            }
+        }
         Results::Vector => quote!(SVector<T, VELOCITIES>),
         Results::Matrix => quote!(SMatrix<T, VELOCITIES, VELOCITIES>),
         Results::Mechanism => quote!(Self),
@@ -63,7 +74,12 @@ pub(crate) fn written(
     match results {
         Results::Scalar => quote!(#(#values)*),
         Results::Written { .. } => TokenStream::new(),
-        Results::Array(_) => quote!([#(#values),*]),
+        Results::Table(1, 1) => quote!(#(#values)*),
+        Results::Array(_) | Results::Table(_, 1) => quote!([#(#values),*]),
+        Results::Table(_, columns) => {
+            let rows = values.chunks(columns).map(|row| quote!([#(#row),*]));
+            quote!([#(#rows),*])
+        }
         Results::Start => {
             let (q, v) = values.split_at(coordinates);
             quote!(([#(#q),*], [#(#v),*]))

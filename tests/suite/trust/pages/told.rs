@@ -189,6 +189,7 @@ fn a_limiter_pays_out_by_the_stretch_alone() {
             parameters: &[],
             auxiliaries: &state.z,
             memory: &state.m,
+            accelerations: &[],
         };
         let mut memory = scene.equations.memory.iter();
         let next = memory
@@ -255,6 +256,7 @@ fn a_planar_bushing_counts_turns() {
             v: vec![0.0; 3],
             z: vec![],
             m: vec![],
+            a: Vec::new(),
         };
         let found = at(&engine, &[], &state).unwrap_or_else(|e| panic!("{e}"));
         let expected = -3.0 * angle / 0.5;

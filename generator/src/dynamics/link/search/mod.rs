@@ -15,7 +15,7 @@ use super::tree::{Link, LinkJoint, Tree};
 use crate::expression::live::{Dependence, Live};
 use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
 use candidates::reach;
-use part::{Part, matrices};
+use part::{Part, matrices, needed};
 use rustc_hash::FxHashMap;
 use shape::{Exact, shape};
 use std::cell::{Cell, RefCell};
@@ -46,6 +46,8 @@ pub enum Aim {
     Matrices,
     /// The accelerations by S and the forces in a reference motion.
     Factorization,
+    /// The forces that given accelerations need.
+    InverseDynamics,
 }
 
 /// The choices for earlier trees, by their [signature](Search::signature). Many effects and parameters do not change the tree.
@@ -305,6 +307,7 @@ impl<'t, 'g> Search<'t, 'g> {
             }
             Aim::Matrices => matrices(&part, &framed, Reference::Rest),
             Aim::Factorization => matrices(&part, &framed, Reference::ChosenOfAxes),
+            Aim::InverseDynamics => needed(&part, &framed),
         };
         let count = operations(graph, &roots);
         self.shapes.borrow_mut().insert(exact.shape, count);
@@ -360,7 +363,7 @@ impl<'t, 'g> Search<'t, 'g> {
             self.keeps(k);
             return;
         }
-        if self.aim != Aim::Matrices {
+        if matches!(self.aim, Aim::Elimination | Aim::Factorization) {
             self.references(k);
         }
         let link = self.best.links[k].clone();

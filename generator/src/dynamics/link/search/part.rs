@@ -138,7 +138,7 @@ impl<'g> Search<'_, 'g> {
             if !left_out.is_empty() {
                 own.carries = Some(match self.aim {
                     Aim::Elimination => unknown_articulated(&mut vector),
-                    Aim::Matrices | Aim::Factorization => {
+                    Aim::Matrices | Aim::Factorization | Aim::InverseDynamics => {
                         self.unknown_composite(&left_out, &mut vector)
                     }
                 });
@@ -228,6 +228,23 @@ pub fn matrices<'h>(part: &Part<'h>, framed: &Framed<'h>, reference: Reference) 
     if part.tree.carrier.is_some() {
         let Body { first, second, .. } = composites[0];
         roots.extend(first.0.into_iter().chain(second.diagonal).chain(second.off));
+    }
+    roots
+}
+
+/// The forces that a part of a tree needs.
+pub fn needed<'h>(part: &Part<'h>, framed: &Framed<'h>) -> Vec<Expr<'h>> {
+    let written = Written {
+        tree: &part.tree,
+        framed,
+        choice: &part.choice,
+    };
+    let motions = motion(&part.tree, framed, &part.choice, Reference::Rest);
+    let needed = forces::needed(&written, &motions);
+    let powers = forces::powers(&written, needed, &|_| String::new());
+    let mut roots: Vec<Expr<'h>> = powers.terms.iter().map(|(_, force)| *force).collect();
+    for wrench in &powers.passed {
+        roots.extend(wrench.force.0.iter().chain(&wrench.moment.0));
     }
     roots
 }

@@ -203,12 +203,14 @@ impl Shape<'_> {
                 acting,
                 ratio,
                 armature,
+                acceleration,
                 coupled,
                 absolute,
             } => {
                 self.word(1 + 2 * u64::from(*coupled) + 4 * u64::from(*absolute));
                 self.number(*turn);
                 self.values(&[*slide, *position, *rate, *acting, *ratio, *armature]);
+                self.value(*acceleration);
             }
         }
         self.wrench(&link.load);

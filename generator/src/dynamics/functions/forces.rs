@@ -1,0 +1,77 @@
+//! Inverse dynamics, S, and the generalised forces of fields and laws.
+
+use super::Known;
+use crate::dynamics::matrices::{Matrices, with_axes};
+use crate::dynamics::outputs::Scene;
+use crate::dynamics::{link, spatial};
+use crate::expression::Expr;
+use crate::expression::vector::Vec3;
+use crate::force::{AppliedForces, Events, States, Wrench, Wrenches};
+use crate::motion::numbers::{number, vector};
+
+/// S a − r_s − r_g, by the recursive Newton–Euler algorithm in the axes with the fewest operations.
+pub fn inverse_dynamics<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
+    let (graph, fields) = (known.scene.graph, fields(known.scene));
+    let mut forces = vec![graph.constant(0.0); known.size()];
+    for spatial in known.systems {
+        spatial::inverse_dynamics(spatial, &fields, &known.given, &mut forces);
+    }
+    for spatial in with_axes(known.systems) {
+        link::cheaper_inverse_dynamics(spatial, &fields, &known.given, &mut forces);
+    }
+    forces
+}
+
+pub fn mass_matrix<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
+    let zero = known.scene.graph.constant(0.0);
+    let entries = known.matrices().mass.iter().flatten();
+    entries.map(|entry| entry.unwrap_or(zero)).collect()
+}
+
+pub fn bias<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
+    let forces = known.matrices().velocity_forces.iter();
+    forces.map(|force| -*force).collect()
+}
+
+pub fn gravity_forces<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
+    let Scene { graph, layout, .. } = *known.scene;
+    let fields = fields(known.scene);
+    Matrices::of(graph, layout, known.systems, &fields, true).applied_forces
+}
+
+pub fn applied_forces<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
+    known.matrices().applied_forces.clone()
+}
+
+/// The fields of a scene without its other forces.
+fn fields<'g>(scene: &Scene<'g, '_>) -> AppliedForces<'g> {
+    let Scene { graph, model, .. } = *scene;
+    let given = &scene.applied.wrenches;
+    let mut wrenches = Wrenches {
+        fields: given.fields.clone(),
+        partial_fields: given.partial_fields.clone(),
+        ..Wrenches::none(graph, model)
+    };
+    for (s, system) in model.systems.iter().enumerate() {
+        for (k, element) in system.elements.iter().enumerate() {
+            let offset = scene.motion.systems[s][k].rotation;
+            let offset: Vec3<'g> = offset.times(vector(graph, &element.cg));
+            let force = number(graph, &element.mass) * given.partial_fields[s][k];
+            wrenches.elements[s][k] = Wrench {
+                force,
+                moment: offset.cross(force),
+            };
+        }
+    }
+    AppliedForces {
+        wrenches,
+        states: States {
+            auxiliaries: Vec::new(),
+            memory: Vec::new(),
+            switches: Vec::new(),
+        },
+        events: Events::none(model),
+        works: Vec::new(),
+        measures: Vec::new(),
+    }
+}

@@ -1,0 +1,316 @@
+//! The functions of a mechanism that are asked for by name: inverse dynamics, poses, Jacobians, the centroidal momentum.
+//! A model that is not asked for any has no trace of them.
+//!
+//! | file | |
+//! |---|---|
+//! | here | the table of all functions |
+//! | `request` | what is asked for: a name with its argument |
+//! | `forces` | inverse dynamics, S and the forces |
+//! | `regressor` | how inverse dynamics depends on masses and inertias |
+//! | `frame` | pose, velocity and Jacobian of a frame |
+//! | `whole` | centre of mass, centroidal momentum, energies |
+//!
+//! With v̇ = a, a mechanism needs the forces S a − r_s. Of r_k, `gravity_forces` r_g are those of all fields, and of the
+//! given acceleration of what carries a system. So the joints and laws have to provide τ = S a − r_s − r_g, and in the
+//! motion of the scene τ = r_k − r_g.
+//!
+//! Vectors are in absolute axes. Of a motion or a wrench the linear part comes first; the velocity of a frame is that of
+//! its origin. Matrices are by rows.
+
+mod forces;
+mod frame;
+mod regressor;
+mod request;
+mod whole;
+
+pub use request::{Frame, Request, request, requests};
+
+use super::matrices::Matrices;
+use super::outputs::Scene;
+use super::spatial::Spatial;
+use crate::equations;
+use crate::expression::{Expr, Symbol};
+use crate::method::argument::Argument;
+use crate::model::Model;
+use crate::motion::Layout;
+use std::cell::OnceCell;
+
+/// A function that gives names of rows or columns.
+type Names = fn(&Model, &Layout) -> Vec<String>;
+
+/// How the values of a function are derived, by rows.
+enum Derive {
+    /// Of the whole scene.
+    OfScene(for<'g> fn(&Known<'g, '_>) -> Vec<Expr<'g>>),
+    /// Of a frame, which is the argument of the function.
+    OfFrame(for<'g> fn(&Known<'g, '_>, &Frame) -> Vec<Expr<'g>>),
+}
+
+use Derive::{OfFrame, OfScene};
+
+/// A row of the table.
+pub struct Function {
+    /// Its name in all targets.
+    pub name: &'static str,
+    /// What it computes.
+    pub sentence: &'static str,
+    /// The arguments that it has in any model; t, z and m come in where values depend on them.
+    arguments: &'static [Argument],
+    /// The names of the rows; a single one may have none.
+    rows: Names,
+    /// The names of the columns; a single one has none.
+    columns: Names,
+    derive: Derive,
+}
+
+impl Function {
+    /// True if its argument is a frame.
+    pub fn is_of_frame(&self) -> bool {
+        matches!(self.derive, OfFrame(_))
+    }
+}
+
+const OF_PLACE: &[Argument] = &[Argument::Coordinates];
+const OF_MOTION: &[Argument] = &[Argument::Coordinates, Argument::Velocities];
+const OF_ACCELERATIONS: &[Argument] = &[
+    Argument::Coordinates,
+    Argument::Velocities,
+    Argument::Accelerations,
+];
+
+/// All functions.
+pub const FUNCTIONS: &[Function] = &[
+    Function {
+        name: "inverse_dynamics",
+        sentence: "The generalised forces beside those of fields that the accelerations a need: S a - r_s - r_g.",
+        arguments: OF_ACCELERATIONS,
+        rows: velocities,
+        columns: one,
+        derive: OfScene(forces::inverse_dynamics),
+    },
+    Function {
+        name: "mass_matrix",
+        sentence: "S, the mass matrix.",
+        arguments: OF_PLACE,
+        rows: velocities,
+        columns: velocities,
+        derive: OfScene(forces::mass_matrix),
+    },
+    Function {
+        name: "bias",
+        sentence: "The bias forces -r_s: what the accelerations 0 need without any field.",
+        arguments: OF_MOTION,
+        rows: velocities,
+        columns: one,
+        derive: OfScene(forces::bias),
+    },
+    Function {
+        name: "gravity_forces",
+        sentence: "r_g, the generalised forces of all fields, and of the given acceleration of what carries the systems.",
+        arguments: OF_PLACE,
+        rows: velocities,
+        columns: one,
+        derive: OfScene(forces::gravity_forces),
+    },
+    Function {
+        name: "applied_forces",
+        sentence: "r_k, the generalised forces of all fields and laws.",
+        arguments: OF_MOTION,
+        rows: velocities,
+        columns: one,
+        derive: OfScene(forces::applied_forces),
+    },
+    Function {
+        name: "regressor",
+        sentence: "The matrix Y that gives inverse dynamics, but for armatures, from the inertia of the elements: Y p.",
+        arguments: OF_ACCELERATIONS,
+        rows: velocities,
+        columns: inertial_parameters,
+        derive: OfScene(regressor::regressor),
+    },
+    Function {
+        name: "pose",
+        sentence: "The rotation from the axes of the frame to absolute axes, and beside it its origin.",
+        arguments: OF_PLACE,
+        rows: axes,
+        columns: rotation_and_origin,
+        derive: OfFrame(frame::pose),
+    },
+    Function {
+        name: "velocity",
+        sentence: "The velocity of the frame's origin, and its angular velocity.",
+        arguments: OF_MOTION,
+        rows: motion,
+        columns: one,
+        derive: OfFrame(frame::velocity),
+    },
+    Function {
+        name: "acceleration",
+        sentence: "The acceleration of the frame's origin, and its angular acceleration, for the accelerations a.",
+        arguments: OF_ACCELERATIONS,
+        rows: motion,
+        columns: one,
+        derive: OfFrame(frame::acceleration),
+    },
+    Function {
+        name: "jacobian",
+        sentence: "The matrix J that gives the velocity of the frame's origin and its angular velocity: J v.",
+        arguments: OF_PLACE,
+        rows: motion,
+        columns: velocities,
+        derive: OfFrame(frame::jacobian),
+    },
+    Function {
+        name: "bias_acceleration",
+        sentence: "The rate of the frame's Jacobian times v: its acceleration and angular acceleration where a is 0.",
+        arguments: OF_MOTION,
+        rows: motion,
+        columns: one,
+        derive: OfFrame(frame::bias_acceleration),
+    },
+    Function {
+        name: "center_of_mass",
+        sentence: "The centre of mass of all systems.",
+        arguments: OF_PLACE,
+        rows: axes,
+        columns: one,
+        derive: OfScene(whole::center_of_mass),
+    },
+    Function {
+        name: "centroidal_momentum",
+        sentence: "The linear momentum of all systems, and their angular momentum about the centre of mass.",
+        arguments: OF_MOTION,
+        rows: motion,
+        columns: one,
+        derive: OfScene(whole::centroidal_momentum),
+    },
+    Function {
+        name: "centroidal_matrix",
+        sentence: "The matrix A that gives the centroidal momentum: A v.",
+        arguments: OF_PLACE,
+        rows: motion,
+        columns: velocities,
+        derive: OfScene(whole::centroidal_matrix),
+    },
+    Function {
+        name: "kinetic_energy",
+        sentence: "The kinetic energy of all elements.",
+        arguments: OF_MOTION,
+        rows: one,
+        columns: one,
+        derive: OfScene(whole::kinetic_energy),
+    },
+    Function {
+        name: "potential_energy",
+        sentence: "The potential energy in all fields, which is 0 for a mass at the origin.",
+        arguments: OF_PLACE,
+        rows: one,
+        columns: one,
+        derive: OfScene(whole::potential_energy),
+    },
+];
+
+fn one(_: &Model, _: &Layout) -> Vec<String> {
+    vec![String::new()]
+}
+
+fn velocities(_: &Model, layout: &Layout) -> Vec<String> {
+    layout.velocities.iter().map(|v| v.name.clone()).collect()
+}
+
+/// For each element m, h and J about its origin, in its axes.
+fn inertial_parameters(model: &Model, _: &Layout) -> Vec<String> {
+    let kinds = [
+        "m", "hx", "hy", "hz", "jxx", "jxy", "jyy", "jxz", "jyz", "jzz",
+    ];
+    let systems = model.systems.iter();
+    let elements = systems.flat_map(|system| {
+        let elements = system.elements.iter();
+        elements.map(move |element| format!("{}/{}", system.name, element.name))
+    });
+    elements
+        .flat_map(|path| kinds.map(|kind| format!("{path}.{kind}")))
+        .collect()
+}
+
+fn axes(_: &Model, _: &Layout) -> Vec<String> {
+    ["x", "y", "z"].map(String::from).into()
+}
+
+fn motion(_: &Model, _: &Layout) -> Vec<String> {
+    let names = ["x", "y", "z", "about_x", "about_y", "about_z"];
+    names.map(String::from).into()
+}
+
+fn rotation_and_origin(_: &Model, _: &Layout) -> Vec<String> {
+    ["x_axis", "y_axis", "z_axis", "origin"]
+        .map(String::from)
+        .into()
+}
+
+/// What functions are derived from.
+pub(super) struct Known<'g, 'a> {
+    scene: &'a Scene<'g, 'a>,
+    systems: &'a [Spatial<'g, 'a>],
+    /// S, r_s and r_k if they are derived already.
+    derived: Option<&'a Matrices<'g>>,
+    own: OnceCell<Matrices<'g>>,
+    /// The given accelerations a.
+    given: Vec<Expr<'g>>,
+}
+
+impl<'g, 'a> Known<'g, 'a> {
+    pub fn new(
+        scene: &'a Scene<'g, 'a>,
+        systems: &'a [Spatial<'g, 'a>],
+        derived: Option<&'a Matrices<'g>>,
+    ) -> Self {
+        let symbol = |i: usize| scene.graph.symbol(Symbol::Acceleration(i as u32));
+        Known {
+            scene,
+            systems,
+            derived,
+            own: OnceCell::new(),
+            given: (0..scene.layout.velocities.len()).map(symbol).collect(),
+        }
+    }
+
+    /// The functions that are asked for.
+    pub fn functions(&self, requests: &[Request]) -> Vec<equations::Function> {
+        let Scene { model, layout, .. } = *self.scene;
+        let function = |request: &Request| {
+            let function = request.function();
+            self.scene.graph.section(request.name().to_owned());
+            let values = match (&function.derive, request.frame()) {
+                (OfScene(derive), _) => derive(self),
+                (OfFrame(derive), Some(frame)) => derive(self, frame),
+                (OfFrame(_), None) => unreachable!("a request has the argument of its function"),
+            };
+            equations::Function {
+                name: request.name().to_owned(),
+                sentence: function.sentence,
+                arguments: function.arguments,
+                rows: (function.rows)(model, layout),
+                columns: (function.columns)(model, layout),
+                values: values.iter().map(|value| value.id()).collect(),
+            }
+        };
+        requests.iter().map(function).collect()
+    }
+
+    fn size(&self) -> usize {
+        self.given.len()
+    }
+
+    /// S, r_s and r_k.
+    fn matrices(&self) -> &Matrices<'g> {
+        let Scene {
+            graph,
+            layout,
+            applied,
+            ..
+        } = *self.scene;
+        let own = || Matrices::of(graph, layout, self.systems, applied, true);
+        self.derived.unwrap_or_else(|| self.own.get_or_init(own))
+    }
+}
