@@ -176,7 +176,7 @@ pub fn accelerations_of<'g>(
 }
 
 /// Indices of the velocities, with each element before the one that carries it.
-fn outboard_first(rows: Range<usize>) -> Vec<usize> {
+pub fn outboard_first(rows: Range<usize>) -> Vec<usize> {
     rows.rev().collect()
 }
 
@@ -187,10 +187,17 @@ fn triangle<'g>(
     matrix: &[Vec<Option<Expr<'g>>>],
 ) -> Vec<Vec<Expr<'g>>> {
     let zero = graph.constant(0.0);
+    triangle_of(order, |row, column| matrix[row][column].unwrap_or(zero))
+}
+
+/// The lower triangle of the symmetric matrix with these entries, with its rows in this order.
+pub fn triangle_of<'g>(
+    order: &[usize],
+    entry: impl Fn(usize, usize) -> Expr<'g>,
+) -> Vec<Vec<Expr<'g>>> {
     let row = |(i, &row): (usize, &usize)| {
         let columns = order[..=i].iter();
-        let entry = columns.map(|&column| matrix[row][column].unwrap_or(zero));
-        entry.collect()
+        columns.map(|&column| entry(row, column)).collect()
     };
     order.iter().enumerate().map(row).collect()
 }
