@@ -4,9 +4,7 @@ use crate::link::{Kind, Numbers, read, tree};
 use bryant_generator::dynamics::augmented::AugmentedTree;
 use bryant_generator::dynamics::charts;
 use bryant_generator::dynamics::derivatives::graph::InGraph;
-use bryant_generator::dynamics::derivatives::{
-    Found, Scene, acceleration_derivatives, inverse_dynamics_derivatives,
-};
+use bryant_generator::dynamics::derivatives::{Found, Scene, Square, acceleration_derivatives};
 use bryant_generator::dynamics::link::derivatives::ways;
 use bryant_generator::dynamics::spatial::Spatial;
 use bryant_generator::expression::count::Count;
@@ -183,14 +181,79 @@ fn link_frames_say_what_differentiation_says() {
             for way in ways {
                 let found = way.at(&a);
                 let names = ["τ", "S", "∂τ/∂q", "∂τ/∂v"];
-                for (name, (found, direct)) in names.iter().zip(ids(&found).iter().zip(ids(&direct))) {
+                for (name, (found, direct)) in
+                    names.iter().zip(ids(&found).iter().zip(ids(&direct)))
+                {
                     let found = values(spatial.graph, found, at, layout.charts());
                     let direct = values(spatial.graph, &direct, at, layout.charts());
                     let apart = apart(&found, &direct);
-                    assert!(apart < 1e-11, "{name}: {apart:.1e}\n{found:?}\n{direct:?}\n{text}");
+                    assert!(
+                        apart < 1e-11,
+                        "{name}: {apart:.1e}\n{found:?}\n{direct:?}\n{text}"
+                    );
                 }
             }
         });
     }
     println!("{cases} of {all} trees have axes alone");
+}
+
+/// The product of two square matrices, by rows.
+fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
+    let size = a.len().isqrt();
+    let entry = |i: usize, j: usize| (0..size).map(|k| a[i * size + k] * b[k * size + j]).sum();
+    let places = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+    places.map(|(i, j)| entry(i, j)).collect()
+}
+
+#[test]
+fn accelerations_solve_the_equations_of_their_derivatives() {
+    let mut numbers = Numbers(5);
+    for case in 0..24 {
+        let kind = [Kind::Any, Kind::Coupled][case % 2];
+        let coordinates = ["quaternion", "quaternion", "bryant"][case % 3];
+        let text = tree(&mut numbers, coordinates, kind);
+        let model = read(&text);
+        with_scene(&model, &mut |scene, layout| {
+            let graph = scene.systems[0].graph;
+            let size = layout.velocities.len();
+            let symbols: Vec<Expr<'_>> = (1..=2 * size)
+                .map(|i| graph.symbol(Symbol::Parameter(i as u32)))
+                .collect();
+            let [a, r] = [&symbols[..size], &symbols[size..]];
+            let found = acceleration_derivatives(scene, r).expect("derivatives");
+            let direct = InGraph::of(scene, &scene.systems[0])
+                .expect("derivatives")
+                .at(a);
+            let (q, v) = state(layout, &mut numbers);
+            let mut parameters = vec![0.0; 1 + 2 * size];
+            parameters.fill_with(|| 3.0 * numbers.next());
+            parameters[0] = 1.3;
+            let of = |values_of: &[Expr<'_>], parameters: &[f64]| {
+                let ids: Vec<NodeId> = values_of.iter().map(|e| e.id()).collect();
+                values(graph, &ids, (&q, &v, parameters), layout.charts())
+            };
+            let rates = of(&found.accelerations, &parameters);
+            let flat = |square: &Square<'_>, parameters: &[f64]| of(&square.concat(), parameters);
+            let squares = [&found.by_position, &found.by_velocity, &found.inverse];
+            let squares = squares.map(|square| flat(square, &parameters));
+            parameters[1..=size].copy_from_slice(&rates);
+            let matrix = flat(&direct.matrix, &parameters);
+            let same = |found: &[f64], expected: &[f64]| {
+                let apart = apart(found, expected);
+                assert!(apart < 1e-9, "{apart:.1e}\n{found:?}\n{expected:?}\n{text}");
+            };
+            same(&of(&direct.forces, &parameters), &parameters[1 + size..]);
+            let mut unit = vec![0.0; size * size];
+            unit.iter_mut().step_by(size + 1).for_each(|one| *one = 1.0);
+            same(&product(&matrix, &squares[2]), &unit);
+            for (square, of_forces) in squares
+                .iter()
+                .zip([&direct.by_position, &direct.by_velocity])
+            {
+                let forces = flat(of_forces, &parameters).into_iter().map(|x| -x);
+                same(&product(&matrix, square), &forces.collect::<Vec<_>>());
+            }
+        });
+    }
 }

@@ -7,8 +7,8 @@ use crate::expression::differentiate::differentiate_along;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
 use crate::force::{AppliedForces, Events, States, Wrench, Wrenches};
 use crate::model::Model;
-use crate::motion::numbers::{number, vector};
 use crate::motion::State;
+use crate::motion::numbers::{number, vector};
 use std::slice::from_ref;
 
 /// S and r_s + r_f of a system, and their derivatives.
@@ -35,7 +35,11 @@ impl<'g> InGraph<'g> {
         let system = from_ref(spatial);
         let entries = mass_matrix::mass_matrix(system, size);
         let matrix: Vec<Vec<Expr<'g>>> = (rows.clone())
-            .map(|i| rows.clone().map(|j| entries[i][j].unwrap_or(zero)).collect())
+            .map(|i| {
+                rows.clone()
+                    .map(|j| entries[i][j].unwrap_or(zero))
+                    .collect()
+            })
             .collect();
         let r_s = bias_forces::velocity_forces(system, zero, size);
         let fields = fields(graph, spatial.model, scene);
@@ -131,7 +135,10 @@ fn fields<'g>(graph: &'g Graph, model: &Model, scene: &Scene<'g, '_>) -> Applied
         let s = spatial.system;
         for (k, element) in model.systems[s].elements.iter().enumerate() {
             let force = number(graph, &element.mass) * given.partial_fields[s][k];
-            let offset = spatial.motion_of(k).rotation.times(vector(graph, &element.cg));
+            let offset = spatial
+                .motion_of(k)
+                .rotation
+                .times(vector(graph, &element.cg));
             wrenches.elements[s][k] = Wrench {
                 force,
                 moment: offset.cross(force),

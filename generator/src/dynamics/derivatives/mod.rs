@@ -24,7 +24,6 @@ pub use acceleration::{AccelerationDerivatives, acceleration_derivatives};
 pub use inverse_dynamics::inverse_dynamics_derivatives;
 
 use super::LARGEST_FACTORIZED;
-use super::factorization::outboard_first;
 use super::link::derivatives::{InLinks, ways};
 use super::spatial::Spatial;
 use crate::expression::count::Count;
@@ -61,7 +60,10 @@ enum Way<'g> {
 
 impl<'g> Way<'g> {
     /// All ways for a system that are worth a comparison.
-    fn all(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Result<Vec<Self>, NotDifferentiable> {
+    fn all(
+        scene: &Scene<'g, '_>,
+        spatial: &Spatial<'g, '_>,
+    ) -> Result<Vec<Self>, NotDifferentiable> {
         let mut found: Vec<Self> = ways(spatial, scene.applied)
             .into_iter()
             .map(|way| Way::InLinks(Box::new(way)))

@@ -48,8 +48,8 @@ use super::turn::through;
 use super::wrench::Written;
 use crate::dynamics::augmented::rotated;
 use crate::dynamics::spatial::{Spatial, Wrench};
-use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::Expr;
+use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::force::AppliedForces;
 use crate::motion::ball::Orientation;
 
@@ -134,6 +134,50 @@ pub fn ways<'g>(spatial: &Spatial<'g, '_>, applied: &AppliedForces<'g>) -> Vec<I
         .collect()
 }
 
+/// A free base.
+pub struct FreeBase<'g> {
+    /// The first row of its translation.
+    pub translation: usize,
+    /// The first row of its rotation.
+    pub rotation: usize,
+    omega: Vec3<'g>,
+    field: Vec3<'g>,
+}
+
+impl<'g> FreeBase<'g> {
+    /// Sets the columns of ∂v̇/∂q that turn the base, from ∂v̇/∂v and S⁻¹: a turn of the base with the velocities and the
+    /// forces r on the base turned as well turns the accelerations minus the field, and those of the joints stay.
+    pub fn turn(
+        &self,
+        by_position: &mut Square<'g>,
+        by_velocity: &Square<'g>,
+        inverse: &Square<'g>,
+        [accelerations, forces]: [&[Expr<'g>]; 2],
+    ) {
+        let three = |of: &[Expr<'g>], first: usize| Vec3([0, 1, 2].map(|i| of[first + i]));
+        let [x, r] = [self.translation, self.rotation];
+        for (i, row) in by_position.iter_mut().enumerate() {
+            let turned = three(&by_velocity[i], r).cross(self.omega)
+                + three(&inverse[i], x).cross(three(forces, x))
+                + three(&inverse[i], r).cross(three(forces, r));
+            row[r..r + 3].copy_from_slice(&turned.0);
+        }
+        let turned = [
+            (x, three(accelerations, x) - self.field),
+            (r, three(accelerations, r)),
+        ];
+        for (first, a) in turned {
+            for j in 0..3 {
+                // e_j × a
+                let (k, l) = ((j + 1) % 3, (j + 2) % 3);
+                let [above, below] = [first + l, first + k];
+                by_position[above][r + j] = by_position[above][r + j] + a.0[k];
+                by_position[below][r + j] = by_position[below][r + j] - a.0[l];
+            }
+        }
+    }
+}
+
 /// True if every joint is an axis that turns with its carrier, except for the ball of a free base.
 fn is_possible(spatial: &Spatial<'_, '_>, tree: &Tree<'_>) -> bool {
     let of = |(k, link): (usize, &super::tree::Link<'_>)| match link.joint {
@@ -154,7 +198,11 @@ impl<'g> InLinks<'g> {
     ) -> Self {
         InLinks {
             framed: Framed::of(&tree, &natural_axes(&tree), &choice),
-            names: tree.links.iter().map(|l| spatial.label(l.element)).collect(),
+            names: tree
+                .links
+                .iter()
+                .map(|l| spatial.label(l.element))
+                .collect(),
             tree,
             choice,
             field: applied.wrenches.fields[spatial.system],
@@ -174,6 +222,20 @@ impl<'g> InLinks<'g> {
     pub fn rests(&self) -> bool {
         let ground = &self.tree.ground;
         ground.omega.is_zero() && ground.alpha.is_zero()
+    }
+
+    /// The free base, if there is one.
+    pub fn base(&self) -> Option<FreeBase<'g>> {
+        let translation = self.tree.base?;
+        Some(FreeBase {
+            translation,
+            rotation: self.tree.links[0].row,
+            omega: match self.tree.links[0].joint {
+                LinkJoint::Ball { omega, .. } => omega,
+                LinkJoint::Axis { .. } => return None,
+            },
+            field: self.field,
+        })
     }
 
     /// −(bias forces): what the field that all bodies feel does, by row; the inertia against a given acceleration of the
@@ -247,7 +309,9 @@ impl<'g> InLinks<'g> {
                 acceleration: sign * (ratio * accelerations[link.row]),
             }),
         };
-        links.map(|(link, frame)| column(link, frame.sign)).collect()
+        links
+            .map(|(link, frame)| column(link, frame.sign))
+            .collect()
     }
 }
 
@@ -343,7 +407,8 @@ impl<'g> Column<'g> {
             (turned * rows[0]).0,
             (slid * body.first).0,
         ]);
-        let moment = self.acceleration * self.inertia(body) + self.rate * self.coriolis(body, between);
+        let moment =
+            self.acceleration * self.inertia(body) + self.rate * self.coriolis(body, between);
         Outboard {
             body: *body,
             momentum: outboard.momentum + twice * shift,
@@ -447,9 +512,7 @@ impl<'g> Pass<'g, '_> {
         };
         let rotor = share.squared() * armature;
         let motion = self.motions[k];
-        let whole = motion
-            .inertia(&outboard.body, false)
-            .plus(outboard.needed);
+        let whole = motion.inertia(&outboard.body, false).plus(outboard.needed);
         let force = share * column.power(&whole) + rotor * self.accelerations[row];
         self.found.forces[row] = self.found.forces[row] + force;
         let mut carried = column.carried(outboard, &motion);
@@ -545,8 +608,16 @@ impl<'g> Pass<'g, '_> {
                 add(&mut found.matrix, (row, of_row), value);
                 add(&mut found.matrix, (of_row, row), value);
             }
-            add(&mut found.by_velocity, (row, turn), share * by_velocity.0[i]);
-            add(&mut found.by_position, (row, turn), share * by_position.0[i]);
+            add(
+                &mut found.by_velocity,
+                (row, turn),
+                share * by_velocity.0[i],
+            );
+            add(
+                &mut found.by_position,
+                (row, turn),
+                share * by_position.0[i],
+            );
             let matrices = [&mut found.by_velocity, &mut found.by_position];
             for (matrix, wrench) in matrices.into_iter().zip(&columns) {
                 add(matrix, (x, row), scale * wrench.force.0[i]);
@@ -610,7 +681,8 @@ impl<'g> Pass<'g, '_> {
             axis.0[j] = one;
             let turns_with = omega.cross(axis);
             // ω × (h × e) is ω e · h less h e · ω
-            let force = h.cross(omega).cross(axis) + omega.cross(axis.cross(h)) + axis.cross(momentum);
+            let force =
+                h.cross(omega).cross(axis) + omega.cross(axis.cross(h)) + axis.cross(momentum);
             let by_velocity = Wrench {
                 force,
                 moment: spread_of(&spread, axis) - omega.cross(body.second.times(axis))
@@ -619,9 +691,7 @@ impl<'g> Pass<'g, '_> {
             let own = motion.inertia(&turned_about(&body, axis), false);
             let by_position = Wrench {
                 force: own.force + axis.cross(needed.force) + turns_with.cross(momentum),
-                moment: own.moment
-                    + axis.cross(needed.moment)
-                    + spread_of(&spread, turns_with),
+                moment: own.moment + axis.cross(needed.moment) + spread_of(&spread, turns_with),
             };
             let column = Wrench {
                 force: axis.cross(h),
@@ -631,7 +701,11 @@ impl<'g> Pass<'g, '_> {
             let found = &mut self.found;
             found.forces[x + j] = found.forces[x + j] + scale * whole.force.0[j];
             found.forces[turn + j] = found.forces[turn + j] + whole.moment.0[j];
-            add(&mut found.matrix, (x + j, x + j), (scale * scale) * body.mass);
+            add(
+                &mut found.matrix,
+                (x + j, x + j),
+                (scale * scale) * body.mass,
+            );
             for i in 0..3 {
                 let force = scale * column.force.0[i];
                 add(&mut found.matrix, (x + i, turn + j), force);

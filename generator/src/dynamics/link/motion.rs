@@ -238,7 +238,12 @@ impl<'g> Given<'g, '_> {
                 (LinkJoint::Ball { .. }, _) => {
                     motion.alpha = motion.alpha + link.rotation.transposed_times(three(link.row));
                 }
-                (LinkJoint::Axis { turn, slide, ratio, .. }, _) => {
+                (
+                    LinkJoint::Axis {
+                        turn, slide, ratio, ..
+                    },
+                    _,
+                ) => {
                     let rate = sign * (*ratio * given[link.row]);
                     let along = (1.0 / choice.unit) * *slide;
                     motion.alpha.0[2] = motion.alpha.0[2] + *turn * rate;
