@@ -4,19 +4,30 @@ use crate::link::{Kind, Numbers, read, tree};
 use bryant_generator::dynamics::augmented::AugmentedTree;
 use bryant_generator::dynamics::charts;
 use bryant_generator::dynamics::derivatives::graph::InGraph;
-use bryant_generator::dynamics::derivatives::{Found, Scene, Square, acceleration_derivatives};
+use bryant_generator::dynamics::derivatives::{
+    Found, Scene, Square, acceleration_derivatives, inverse_dynamics_derivatives, linearisation,
+};
+use bryant_generator::dynamics::derive;
 use bryant_generator::dynamics::link::derivatives::ways;
 use bryant_generator::dynamics::spatial::Spatial;
 use bryant_generator::expression::count::Count;
-use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::differentiate::differentiate_along;
+use bryant_generator::expression::evaluate::{Inputs, Scalar, evaluate};
 use bryant_generator::expression::passes::factor;
 use bryant_generator::expression::{Expr, Function, Graph, NodeId, Symbol};
 use bryant_generator::law;
 use bryant_generator::model::Model;
 use bryant_generator::motion::{Layout, Motion, State};
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::path::Path;
 
 /// Calls a function with all that derivatives are made from, and symbols for v̇.
 fn with_scene(model: &Model, of: &mut dyn FnMut(&Scene<'_, '_>, &Layout)) {
+    with_start(model, &mut |scene, layout, _| of(scene, layout));
+}
+
+/// The same with the motion at the start of a run.
+fn with_start(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout, &Motion<'g>)) {
     let graph = Graph::new();
     let layout = Layout::of(model);
     let started = layout.start(&graph, model);
@@ -43,7 +54,7 @@ fn with_scene(model: &Model, of: &mut dyn FnMut(&Scene<'_, '_>, &Layout)) {
         systems: &systems,
         applied: &applied,
     };
-    of(&scene, &layout);
+    of(&scene, &layout, &start);
 }
 
 /// Symbols for v̇, numbered after the parameters of the model.
@@ -255,5 +266,386 @@ fn accelerations_solve_the_equations_of_their_derivatives() {
                 same(&product(&matrix, square), &forces.collect::<Vec<_>>());
             }
         });
+    }
+}
+
+/// The derivatives by Pinocchio: a line for each robot and quantity, state after state.
+const BY_PINOCCHIO: &str = include_str!("../../../tests/reference/robot-derivatives.txt");
+
+#[test]
+fn derivatives_of_robots_are_those_of_pinocchio() {
+    let robots = [
+        ("panda", include_str!("../../../tests/reference/panda.yaml")),
+        ("ur5", include_str!("../../../tests/reference/ur5.yaml")),
+        (
+            "anymal",
+            include_str!("../../../tests/reference/anymal.yaml"),
+        ),
+    ];
+    for (name, text) in robots {
+        let lines = BY_PINOCCHIO
+            .lines()
+            .map(|line| line.split(' ').collect::<Vec<_>>());
+        let rows: Vec<Vec<f64>> = lines
+            .filter(|words| words[0] == name)
+            .map(|words| {
+                words[2..]
+                    .iter()
+                    .map(|w| w.parse().expect("a number"))
+                    .collect()
+            })
+            .collect();
+        assert_eq!(rows.len(), 20 * 12);
+        let model = read(text);
+        with_scene(&model, &mut |scene, layout| {
+            let graph = scene.systems[0].graph;
+            let size = layout.velocities.len();
+            let symbols: Vec<Expr<'_>> = (0..2 * size)
+                .map(|i| graph.symbol(Symbol::Parameter(i as u32)))
+                .collect();
+            let [a, r] = [&symbols[..size], &symbols[size..]];
+            let forces = inverse_dynamics_derivatives(scene, a).expect("derivatives");
+            let rates = acceleration_derivatives(scene, r).expect("derivatives");
+            let vectors = [&forces.forces, &rates.accelerations];
+            let squares = [
+                &forces.by_position,
+                &forces.by_velocity,
+                &rates.by_position,
+                &rates.by_velocity,
+                &rates.inverse,
+            ];
+            let ids: Vec<NodeId> = (vectors.into_iter().flatten())
+                .chain(squares.into_iter().flatten().flatten())
+                .map(|e| e.id())
+                .collect();
+            for row in rows.chunks(12) {
+                let [
+                    q,
+                    v,
+                    a,
+                    r,
+                    w,
+                    tau,
+                    tau_q,
+                    tau_v,
+                    of_v,
+                    of_q,
+                    of_rates,
+                    inverse,
+                ] = row
+                else {
+                    panic!("twelve quantities")
+                };
+                let found = values(graph, &ids, (q, v, &[&a[..], r].concat()), 0);
+                let (vectors, squares) = found.split_at(2 * size);
+                let mut said = vec![vectors[..size].to_vec(), vectors[size..].to_vec()];
+                for square in squares.chunks(size * size) {
+                    let rows = square.chunks(size);
+                    said.push(
+                        rows.map(|row| row.iter().zip(w).map(|(d, w)| d * w).sum())
+                            .collect(),
+                    );
+                }
+                let expected = [tau, of_v, tau_q, tau_v, of_q, of_rates, inverse];
+                for (k, (found, expected)) in said.iter().zip(expected).enumerate() {
+                    let apart = apart(found, expected);
+                    assert!(
+                        apart < 1e-12,
+                        "{name} {k}: {apart:.1e}\n{found:?}\n{expected:?}"
+                    );
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn the_part_of_the_velocities_is_half_symmetric_with_the_rate_of_s() {
+    let mut numbers = Numbers(8);
+    for _ in 0..12 {
+        let text = tree(&mut numbers, "bryant", Kind::Any);
+        let model = read(&text);
+        with_scene(&model, &mut |scene, layout| {
+            let spatial = &scene.systems[0];
+            let graph = spatial.graph;
+            let zero = graph.constant(0.0);
+            let a = rates(scene);
+            let found = inverse_dynamics_derivatives(scene, &a).expect("derivatives");
+            let roots: Vec<NodeId> = found.matrix.iter().flatten().map(|e| e.id()).collect();
+            let along = |symbol| match symbol {
+                Symbol::Coordinate(i) => graph.symbol(Symbol::Velocity(i)),
+                _ => zero,
+            };
+            let rate = differentiate_along(graph, &roots, along).expect("derivatives");
+            let size = layout.velocities.len();
+            let half = graph.constant(0.5);
+            let sum = |i: usize, j: usize| found.by_velocity[i][j] + found.by_velocity[j][i];
+            let places = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+            let twice: Vec<NodeId> = places.map(|(i, j)| (half * sum(i, j)).id()).collect();
+            let (q, v) = state(layout, &mut numbers);
+            // a carrier that turns adds forces that are linear in v, and skew
+            let at = (&q[..], &v[..], &[1.3; 40][..]);
+            let rate = values(graph, &rate, at, layout.charts());
+            let apart = apart(&values(graph, &twice, at, layout.charts()), &rate);
+            assert!(apart < 1e-11, "{apart:.1e}\n{text}");
+        });
+    }
+}
+
+/// A value and its slope.
+#[derive(Clone, Copy, Debug)]
+struct Dual(f64, f64);
+
+impl Add for Dual {
+    type Output = Dual;
+    fn add(self, b: Dual) -> Dual {
+        Dual(self.0 + b.0, self.1 + b.1)
+    }
+}
+impl Sub for Dual {
+    type Output = Dual;
+    fn sub(self, b: Dual) -> Dual {
+        Dual(self.0 - b.0, self.1 - b.1)
+    }
+}
+impl Mul for Dual {
+    type Output = Dual;
+    fn mul(self, b: Dual) -> Dual {
+        Dual(self.0 * b.0, self.1 * b.0 + self.0 * b.1)
+    }
+}
+impl Div for Dual {
+    type Output = Dual;
+    fn div(self, b: Dual) -> Dual {
+        let quotient = self.0 / b.0;
+        Dual(quotient, (self.1 - quotient * b.1) / b.0)
+    }
+}
+impl Neg for Dual {
+    type Output = Dual;
+    fn neg(self) -> Dual {
+        Dual(-self.0, -self.1)
+    }
+}
+impl Scalar for Dual {
+    fn from_f64(value: f64) -> Self {
+        Dual(value, 0.0)
+    }
+    fn sqrt(self) -> Self {
+        let root = self.0.sqrt();
+        Dual(root, 0.5 * self.1 / root)
+    }
+    fn sin(self) -> Self {
+        Dual(libm::sin(self.0), libm::cos(self.0) * self.1)
+    }
+    fn cos(self) -> Self {
+        Dual(libm::cos(self.0), -libm::sin(self.0) * self.1)
+    }
+    fn atan2(self, x: Self) -> Self {
+        let square = x.0 * x.0 + self.0 * self.0;
+        let turn = (x.0 * self.1 - self.0 * x.1) / square;
+        Dual(libm::atan2(self.0, x.0), turn)
+    }
+    fn max(self, other: Self) -> Self {
+        if self.0 < other.0 { other } else { self }
+    }
+    fn min(self, other: Self) -> Self {
+        if other.0 < self.0 { other } else { self }
+    }
+}
+
+/// Functions over duals: curves are straight lines, so that all their functions agree.
+fn over_duals(function: Function, a: &[Dual]) -> Dual {
+    let slope = Dual(100.0, 0.0);
+    match (function, a) {
+        (Function::Curve(_), &[x]) => slope * x,
+        (Function::CurveSlope(_), _) => slope,
+        (Function::CurveSecondDerivative(_), _) => Dual(0.0, 0.0),
+        (Function::CurveIntegral(_), &[x]) => Dual(0.5, 0.0) * slope * x * x,
+        (Function::CurveDoubleIntegral(_), &[x]) => Dual(1.0 / 6.0, 0.0) * slope * x * x * x,
+        (Function::CurveInverse(_), &[x]) => x / slope,
+        (Function::Power, &[x, y]) => {
+            let power = libm::pow(x.0, y.0);
+            Dual(power, y.0 * libm::pow(x.0, y.0 - 1.0) * x.1)
+        }
+        (Function::Choose, &[a, b, then, otherwise]) => match a.0 < b.0 {
+            true => then,
+            false => otherwise,
+        },
+        _ => panic!("{function:?}"),
+    }
+}
+
+/// A state with parameters, and the index of a direction: of v, then of velocities, z and parameters.
+struct At<'a> {
+    q: &'a [f64],
+    v: &'a [f64],
+    z: &'a [f64],
+    memory: &'a [f64],
+    parameters: &'a [f64],
+}
+
+impl At<'_> {
+    /// The values and their slopes along the motion of velocity `k`, or with respect to input `k` of the others.
+    fn slopes(
+        &self,
+        layout: &Layout,
+        graph: &Graph,
+        roots: &[NodeId],
+        k: Option<usize>,
+    ) -> Vec<Dual> {
+        let plain = |values: &[f64]| values.iter().map(|x| Dual(*x, 0.0)).collect::<Vec<_>>();
+        let mut q = plain(self.q);
+        let mut v = plain(self.v);
+        let mut z = plain(self.z);
+        let mut parameters = plain(self.parameters);
+        let size = v.len();
+        match k {
+            None => {}
+            Some(k) if k < size => {
+                let (mut coordinate, mut left) = (0, k);
+                let turns = layout.quaternions();
+                loop {
+                    let turn = turns.iter().find(|range| range.start == coordinate);
+                    let own = if turn.is_some() { 3 } else { 1 };
+                    if left < own {
+                        match turn {
+                            None => q[coordinate].1 = 1.0,
+                            Some(range) => {
+                                // half (0, e) times (w, x, y, z)
+                                let [w, rest @ ..] = [0, 1, 2, 3].map(|i| self.q[range.start + i]);
+                                let mut e = [0.0; 3];
+                                e[left] = 0.5;
+                                let [x, y, z] = rest;
+                                q[range.start].1 = -(e[0] * x + e[1] * y + e[2] * z);
+                                q[range.start + 1].1 = e[0] * w + e[1] * z - e[2] * y;
+                                q[range.start + 2].1 = e[1] * w + e[2] * x - e[0] * z;
+                                q[range.start + 3].1 = e[2] * w + e[0] * y - e[1] * x;
+                            }
+                        }
+                        break;
+                    }
+                    left -= own;
+                    coordinate += turn.map_or(1, |range| range.len());
+                }
+            }
+            Some(k) if k < 2 * size => v[k - size].1 = 1.0,
+            Some(k) if k < 2 * size + z.len() => z[k - 2 * size].1 = 1.0,
+            Some(k) => parameters[k - 2 * size - self.z.len()].1 = 1.0,
+        }
+        let inputs = Inputs {
+            time: Dual(0.013, 0.0),
+            coordinates: &q,
+            velocities: &v,
+            parameters: &parameters,
+            auxiliaries: &z,
+            memory: &plain(self.memory),
+        };
+        evaluate(graph, roots, &inputs, &over_duals)
+    }
+}
+
+/// Compares the linearisation of a model with dual numbers over its equations; returns why it cannot be linearised.
+fn check_linearisation(model: &Model, numbers: &mut Numbers, text: &str) -> Option<String> {
+    let equations = derive(model);
+    let mut refused = None;
+    with_start(model, &mut |scene, layout, start| {
+        let graph = scene.systems[0].graph;
+        let all: Vec<usize> = (0..model.parameters.len()).collect();
+        let found = match linearisation(scene, start, &all) {
+            Ok(found) => found,
+            Err(problem) => {
+                refused = Some(problem.to_string());
+                return;
+            }
+        };
+        let (q, v) = state(layout, numbers);
+        let mut few = |count: usize| (0..count).map(|_| 0.1 * numbers.next()).collect::<Vec<_>>();
+        let (z, memory) = (
+            few(equations.auxiliaries.len()),
+            few(equations.memory.len()),
+        );
+        let parameters: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+        let at = At {
+            q: &q,
+            v: &v,
+            z: &z,
+            memory: &memory,
+            parameters: &parameters,
+        };
+        let ids = |values: &[Expr<'_>]| values.iter().map(|e| e.id()).collect::<Vec<_>>();
+        let evaluated = |values: &[Expr<'_>]| {
+            let values = at.slopes(layout, graph, &ids(values), None);
+            values.into_iter().map(|value| value.0).collect::<Vec<_>>()
+        };
+        let size = v.len();
+        let mut roots = equations.accelerations.clone();
+        roots.extend(equations.auxiliaries.iter().map(|state| state.next));
+        roots.extend(&equations.outputs);
+        let own = at.slopes(layout, &equations.graph, &roots, None);
+        let own: Vec<f64> = own.into_iter().map(|value| value.0).collect();
+        let said = [&found.rates[size..], &found.outputs].concat();
+        let check = |found: &[f64], expected: &[f64], what: &str| {
+            let parts = [0..size, size..size + z.len(), size + z.len()..roots.len()];
+            for part in parts {
+                let (found, expected) = (&found[part.clone()], &expected[part]);
+                let apart = apart(found, expected);
+                assert!(
+                    apart < 1e-8,
+                    "{what}: {apart:.1e}\n{found:?}\n{expected:?}\n{text}"
+                );
+            }
+        };
+        check(&evaluated(&said), &own, "values");
+        let count = 2 * size + z.len();
+        for k in 0..count + all.len() {
+            let expected = at.slopes(layout, &equations.graph, &roots, Some(k));
+            let expected: Vec<f64> = expected.into_iter().map(|value| value.1).collect();
+            let (rows, outputs, k) = match k.checked_sub(count) {
+                None => (&found.a, &found.c, k),
+                Some(k) => (&found.b, &found.d, k),
+            };
+            let column = rows[size..].iter().chain(outputs).map(|row| row[k]);
+            let column = evaluated(&column.collect::<Vec<_>>());
+            check(&column, &expected, &format!("column {k}"));
+        }
+    });
+    refused
+}
+
+#[test]
+fn linearisations_are_the_slopes_of_the_equations() {
+    let mut numbers = Numbers(21);
+    for case in 0..18 {
+        let kind = [Kind::Any, Kind::Coupled][case % 2];
+        let coordinates = ["quaternion", "bryant"][case % 3 / 2];
+        let text = tree(&mut numbers, coordinates, kind);
+        let outputs = "outputs: [{ name: p, of: s/e1, what: acceleration, component: x }]\nrun:";
+        let rope = "forces:\n  - { spring: rope, from: { on: s/e1, at: [0.1, 0.2, 0.3] }, to: { on: frame, at: [-3, 2, 1] }, stiffness: 70 N/m, damping: 5 N*s/m, length: 0.4 m }\n";
+        let text = text.replace("forces:\n", rope);
+        let text = text.replace("run:", outputs);
+        let refused = check_linearisation(&read(&text), &mut numbers, &text);
+        assert_eq!(refused, None, "{text}");
+    }
+}
+
+#[test]
+fn bundled_models_are_linearised_or_refused() {
+    let models = [
+        ("models/robot-arm.yaml", true),
+        ("models/dummy15.yaml", true),
+        ("models/elbow.yaml", false),
+        ("models/skydiver.yaml", false),
+        ("models/sled-pendulum.yaml", true),
+        ("models/child-seat.yaml", true),
+    ];
+    let mut numbers = Numbers(3);
+    for (path, possible) in models {
+        let place = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
+        let (model, _) = bryant_generator::read(&place).expect("a valid model");
+        let started = std::time::Instant::now();
+        let refused = check_linearisation(&model, &mut numbers, path);
+        println!("{path}: {refused:?} {:.1?}", started.elapsed());
+        assert_eq!(refused.is_none(), possible, "{path}: {refused:?}");
     }
 }

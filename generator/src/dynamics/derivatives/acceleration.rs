@@ -1,5 +1,6 @@
 //! ∂v̇/∂q and ∂v̇/∂v: −S⁻¹ times the derivatives of τ at v̇.
 
+use super::loads::Loads;
 use super::{NotDifferentiable, Scene, Square, Way, cost, zeros};
 use crate::dynamics::LARGEST_FACTORIZED;
 use crate::dynamics::factorization::{Branches, Ldl, outboard_first, triangle_of};
@@ -43,34 +44,67 @@ pub fn acceleration_derivatives<'g>(
     scene: &Scene<'g, '_>,
     forces: &[Expr<'g>],
 ) -> Result<AccelerationDerivatives<'g>, NotDifferentiable> {
+    let fields = Loads::of_partial_fields(scene)?;
+    let none = |_: &[Expr<'g>]| Ok(Vec::new());
+    Ok(under_loads(scene, forces, &fields, &none)?.0)
+}
+
+/// The results under the loads as well, whose derivatives count, and the derivatives of v̇ with respect to the other
+/// inputs of the loads. `needed` has for each of these inputs the change of τ at constant v̇.
+pub(super) fn under_loads<'g>(
+    scene: &Scene<'g, '_>,
+    forces: &[Expr<'g>],
+    loads: &Loads<'g>,
+    needed: &Needed<'g, '_>,
+) -> Result<(AccelerationDerivatives<'g>, Columns<'g>), NotDifferentiable> {
     let (graph, size) = (scene.graph(), forces.len());
+    let zero = graph.constant(0.0);
     let mut whole = AccelerationDerivatives {
-        accelerations: vec![graph.constant(0.0); size],
+        accelerations: vec![zero; size],
         by_position: zeros(graph, size),
         by_velocity: zeros(graph, size),
         inverse: zeros(graph, size),
     };
+    let mut by_others = vec![vec![zero; size]; loads.by_others.len()];
     for spatial in scene.systems {
-        let mut least: Option<(usize, AccelerationDerivatives<'g>)> = None;
-        let rows: Vec<usize> = outboard_first(spatial.layout.system_velocities(spatial.system));
+        let mut least = None;
+        let rows = outboard_first(spatial.layout.system_velocities(spatial.system));
+        if rows.is_empty() {
+            continue;
+        }
         for way in Way::all(scene, spatial)? {
-            for found in by_way(scene, &way, &rows, forces) {
-                let now = cost(graph, found.values());
+            for found in by_way(scene, &way, &rows, (forces, loads, needed))? {
+                let others = found.1.iter().flatten().copied();
+                let now = cost(graph, found.0.values().chain(others));
                 if least.as_ref().is_none_or(|(before, _)| now < *before) {
                     least = Some((now, found));
                 }
             }
         }
-        let Some((_, found)) = least else { continue };
+        let Some((_, (found, others))) = least else {
+            continue;
+        };
         for i in rows {
             whole.accelerations[i] = found.accelerations[i];
             whole.by_position[i].clone_from(&found.by_position[i]);
             whole.by_velocity[i].clone_from(&found.by_velocity[i]);
             whole.inverse[i].clone_from(&found.inverse[i]);
+            for (column, own) in by_others.iter_mut().zip(&others) {
+                column[i] = own[i];
+            }
         }
     }
-    Ok(whole)
+    Ok((whole, by_others))
 }
+
+/// A list of rows for each of several inputs.
+pub(super) type Columns<'g> = Vec<Vec<Expr<'g>>>;
+
+/// For each of several inputs the derivative of τ at these v̇, which are constant.
+pub(super) type Needed<'g, 'a> = dyn Fn(&[Expr<'g>]) -> Result<Columns<'g>, NotDifferentiable> + 'a;
+
+/// The derivatives of v̇ by the motions of v, by v, S⁻¹ and the derivatives by other inputs.
+type FoundByWay<'g> = (AccelerationDerivatives<'g>, Columns<'g>);
 
 /// How the columns of ∂v̇/∂q and ∂v̇/∂v follow from those of τ.
 #[derive(Clone, Copy, PartialEq)]
@@ -88,8 +122,8 @@ fn by_way<'g>(
     scene: &Scene<'g, '_>,
     way: &Way<'g>,
     rows: &[usize],
-    forces: &[Expr<'g>],
-) -> Vec<AccelerationDerivatives<'g>> {
+    (forces, loads, needed): (&[Expr<'g>], &Loads<'g>, &Needed<'g, '_>),
+) -> Result<Vec<FoundByWay<'g>>, NotDifferentiable> {
     let (graph, size) = (scene.graph(), forces.len());
     let zero = graph.constant(0.0);
     let bias = way.bias(zero, &scene.state.v);
@@ -101,8 +135,34 @@ fn by_way<'g>(
         size,
         known: RefCell::default(),
     };
-    let accelerations = solver.solve(Solve::Factors, &|row| forces[row] - bias[row]);
-    let found = way.at(&accelerations);
+    let acting: Vec<Expr<'g>> = (0..size).map(|i| forces[i] + loads.forces[i]).collect();
+    let accelerations = solver.solve(Solve::Factors, &|row| acting[row] - bias[row]);
+    let rigid = way.at(&accelerations);
+    let base = match way {
+        Way::InLinks(way) => way.base(),
+        Way::InGraph(_) => None,
+    };
+    let by_position = less(&rigid.by_position, &loads.by_position, |j| {
+        // these columns of the rigid part follow from others
+        base.as_ref().is_some_and(|base| base.turns(j))
+    });
+    let by_velocity = less(&rigid.by_velocity, &loads.by_velocity, |_| false);
+    let spinning = base.as_ref().map(|base| {
+        let mut only = rigid.by_velocity.clone();
+        for row in &mut only {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = if base.turns(j) { *entry } else { zero };
+            }
+        }
+        only
+    });
+    let mut others = needed(&accelerations)?;
+    others.resize(loads.by_others.len(), vec![zero; size]);
+    for (other, load) in others.iter_mut().zip(&loads.by_others) {
+        for (entry, load) in other.iter_mut().zip(load) {
+            *entry = *entry - *load;
+        }
+    }
     let mut ways = vec![Solve::Factors, Solve::Branches];
     if rows.len() <= LARGEST_FACTORIZED {
         ways.push(Solve::Inverse);
@@ -117,34 +177,35 @@ fn by_way<'g>(
             Solve::Inverse => solver.multiplied(&inverse, of),
             _ => solver.columns(by, of),
         };
-        let by_velocity = columns(&found.by_velocity);
-        let by_position = match way {
-            Way::InLinks(way) if way.base().is_some() => {
-                let mut of = found.by_position.clone();
-                let base = way.base().expect("a free base");
-                // its columns follow from the others
-                for row in &mut of {
-                    row[base.rotation..base.rotation + 3].fill(zero);
-                }
-                let mut columns = columns(&of);
-                base.turn(
-                    &mut columns,
-                    &by_velocity,
-                    &inverse,
-                    [&accelerations, forces],
-                );
-                columns
-            }
-            _ => columns(&found.by_position),
-        };
-        AccelerationDerivatives {
+        let mut by_position = columns(&by_position);
+        if let (Some(base), Some(spinning)) = (&base, &spinning) {
+            let known = [&accelerations[..], &acting];
+            base.turn(&mut by_position, &columns(spinning), &inverse, known);
+        }
+        let other = |column: &Vec<Expr<'g>>| solver.solve(by, &|row| -column[row]);
+        let others = others.iter().map(other).collect();
+        let found = AccelerationDerivatives {
             accelerations: accelerations.clone(),
             by_position,
-            by_velocity,
+            by_velocity: columns(&by_velocity),
             inverse,
-        }
+        };
+        (found, others)
     };
-    ways.into_iter().map(with).collect()
+    Ok(ways.into_iter().map(with).collect())
+}
+
+/// The difference of two matrices; the first counts as 0 in some columns.
+fn less<'g>(a: &Square<'g>, b: &Square<'g>, left_out: impl Fn(usize) -> bool) -> Square<'g> {
+    let entry = |j: usize, a: Expr<'g>, b: Expr<'g>| match left_out(j) {
+        true => -b,
+        false => a - b,
+    };
+    let row = |(a, b): (&Vec<Expr<'g>>, &Vec<Expr<'g>>)| {
+        let entries = a.iter().zip(b).enumerate();
+        entries.map(|(j, (a, b))| entry(j, *a, *b)).collect()
+    };
+    a.iter().zip(b).map(row).collect()
 }
 
 /// S of a system, factorised.
@@ -195,7 +256,10 @@ impl<'g> Solver<'g, '_> {
     /// −S⁻¹ times each column.
     fn columns(&self, by: Solve, of: &Square<'g>) -> Square<'g> {
         let mut result = zeros(self.graph(), self.size);
-        for &j in self.rows {
+        for j in 0..self.size {
+            if self.rows.iter().all(|&row| of[row][j].is_zero()) {
+                continue;
+            }
             let column = self.solve(by, &|row| -of[row][j]);
             for &i in self.rows {
                 result[i][j] = column[i];
@@ -209,7 +273,7 @@ impl<'g> Solver<'g, '_> {
         let zero = self.graph().constant(0.0);
         let mut result = zeros(self.graph(), self.size);
         for &i in self.rows {
-            for &j in self.rows {
+            for j in 0..self.size {
                 let terms = self.rows.iter().map(|&k| inverse[i][k] * of[k][j]);
                 result[i][j] = -terms.fold(zero, |sum, term| sum + term);
             }

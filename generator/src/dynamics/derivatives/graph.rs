@@ -1,159 +1,153 @@
 //! Derivatives of τ by differentiation of the expressions of S and of r_s + r_f, entry by entry.
 
+use super::loads::forces;
 use super::{Found, NotDifferentiable, Scene, zeros};
 use crate::dynamics::spatial::Spatial;
 use crate::dynamics::{applied_forces, bias_forces, mass_matrix};
-use crate::expression::differentiate::differentiate_along;
-use crate::expression::{Expr, Graph, NodeId, Symbol};
-use crate::force::{AppliedForces, Events, States, Wrench, Wrenches};
-use crate::model::Model;
-use crate::motion::State;
-use crate::motion::numbers::{number, vector};
+use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
+use crate::expression::{Expr, NodeId, Symbol};
+use crate::force::Wrenches;
+use std::ops::Range;
 use std::slice::from_ref;
 
-/// S and r_s + r_f of a system, and their derivatives.
-pub struct InGraph<'g> {
-    rows: std::ops::Range<usize>,
+/// S and r_s + r_f of a system, by rows and columns of the system.
+pub struct Terms<'g> {
+    rows: Range<usize>,
     /// S
     matrix: Vec<Vec<Expr<'g>>>,
     /// r_s + r_f
     forces: Vec<Expr<'g>>,
-    /// For each velocity: the derivatives of S and of r_s + r_f along its motion, then that of r_s + r_f with it.
-    along: Vec<Along<'g>>,
 }
 
-struct Along<'g> {
-    matrix: Vec<Vec<Expr<'g>>>,
-    forces: [Vec<Expr<'g>>; 2],
+/// S and r_s + r_f of a system with their derivatives.
+pub struct InGraph<'g> {
+    terms: Terms<'g>,
+    /// For each velocity: the derivatives along its motion, and with respect to it.
+    along: Vec<[Terms<'g>; 2]>,
 }
 
-impl<'g> InGraph<'g> {
-    pub fn of(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Result<Self, NotDifferentiable> {
+impl<'g> Terms<'g> {
+    pub fn of(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Self {
         let (graph, layout) = (spatial.graph, spatial.layout);
         let (zero, size) = (graph.constant(0.0), layout.velocities.len());
         let rows = layout.system_velocities(spatial.system);
         let system = from_ref(spatial);
         let entries = mass_matrix::mass_matrix(system, size);
-        let matrix: Vec<Vec<Expr<'g>>> = (rows.clone())
-            .map(|i| {
-                rows.clone()
-                    .map(|j| entries[i][j].unwrap_or(zero))
-                    .collect()
-            })
-            .collect();
         let r_s = bias_forces::velocity_forces(system, zero, size);
-        let fields = fields(graph, spatial.model, scene);
+        let mut fields = Wrenches::none(graph, spatial.model);
+        fields.fields.clone_from(&scene.applied.wrenches.fields);
+        let fields = forces(spatial.model, fields);
         let r_f = applied_forces::applied_forces(system, &fields, zero, size);
-        let forces: Vec<Expr<'g>> = rows.clone().map(|i| r_s[i] + r_f[i]).collect();
-        let count = rows.len();
-        let upper = (0..count).flat_map(|i| (i..count).map(move |j| (i, j)));
-        let upper: Vec<(usize, usize)> = upper.collect();
-        let mut roots: Vec<NodeId> = forces.iter().map(|e| e.id()).collect();
-        roots.extend(upper.iter().map(|&(i, j)| matrix[i][j].id()));
-        let mut along = Vec::new();
-        for j in rows.clone() {
-            graph.section(format!("∂τ/∂{}", layout.velocities[j].name));
-            let position = differentiate_along(graph, &roots, tangent(spatial, scene.state, j))?;
-            let of = |symbol: Symbol| match symbol == Symbol::Velocity(j as u32) {
-                true => graph.constant(1.0),
-                false => zero,
-            };
-            let velocity = differentiate_along(graph, &roots[..count], of)?;
-            let values = |ids: &[NodeId]| ids.iter().map(|id| graph.expr(*id)).collect::<Vec<_>>();
-            let mut change = vec![vec![zero; count]; count];
-            for (&(i, j), value) in upper.iter().zip(values(&position[count..])) {
-                (change[i][j], change[j][i]) = (value, value);
-            }
-            along.push(Along {
-                matrix: change,
-                forces: [values(&position[..count]), values(&velocity)],
-            });
-        }
-        Ok(InGraph {
+        let row = |i: usize| {
+            rows.clone()
+                .map(|j| entries[i][j].unwrap_or(zero))
+                .collect()
+        };
+        Terms {
+            matrix: rows.clone().map(row).collect(),
+            forces: rows.clone().map(|i| r_s[i] + r_f[i]).collect(),
             rows,
+        }
+    }
+
+    /// True for a system without velocities.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// r_s + r_f, then the upper triangle of S.
+    fn roots(&self) -> Vec<NodeId> {
+        let forces = self.forces.iter();
+        let upper = self
+            .matrix
+            .iter()
+            .enumerate()
+            .flat_map(|(i, row)| &row[i..]);
+        forces.chain(upper).map(|value| value.id()).collect()
+    }
+
+    /// The terms with these values in place of their [roots](Self::roots).
+    fn with(&self, values: impl IntoIterator<Item = Expr<'g>>) -> Self {
+        let mut values = values.into_iter();
+        let forces: Vec<Expr<'g>> = values.by_ref().take(self.forces.len()).collect();
+        let mut matrix = self.matrix.clone();
+        for i in 0..matrix.len() {
+            for j in i..matrix.len() {
+                if let Some(value) = values.next() {
+                    (matrix[i][j], matrix[j][i]) = (value, value);
+                }
+            }
+        }
+        Terms {
+            rows: self.rows.clone(),
             matrix,
             forces,
-            along,
-        })
+        }
+    }
+
+    /// ∂τ/∂x at constant v̇, by row of v.
+    pub fn by(
+        &self,
+        input: Symbol,
+        accelerations: &[Expr<'g>],
+    ) -> Result<Vec<Expr<'g>>, NotDifferentiable> {
+        let graph = self.forces[0].graph();
+        let direction = |s| graph.constant(if s == input { 1.0 } else { 0.0 });
+        let roots = self.roots();
+        let found = differentiate_almost_everywhere(graph, &roots, &Known::default(), direction)?;
+        let change = self.with(found.into_iter().map(|id| graph.expr(id)));
+        Ok(change.needed(accelerations))
+    }
+
+    /// S v̇ − (r_s + r_f), by row of v.
+    fn needed(&self, accelerations: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let zero = self.forces[0].graph().constant(0.0);
+        let mut needed = vec![zero; accelerations.len()];
+        let own = &accelerations[self.rows.clone()];
+        for ((row, force), i) in self.matrix.iter().zip(&self.forces).zip(self.rows.clone()) {
+            let terms = row.iter().zip(own);
+            needed[i] = terms.fold(zero, |sum, (s, a)| sum + *s * *a) - *force;
+        }
+        needed
+    }
+}
+
+impl<'g> InGraph<'g> {
+    pub fn of(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Result<Self, NotDifferentiable> {
+        let terms = Terms::of(scene, spatial);
+        let roots = terms.roots();
+        let mut along = Vec::new();
+        for j in terms.rows.clone() {
+            let found = scene.along(j, &roots, &Default::default())?;
+            along.push([0, 1].map(|kind| terms.with(found.iter().map(|of| of[kind]))));
+        }
+        Ok(InGraph { terms, along })
     }
 
     /// τ, its derivatives and S at these v̇.
     pub fn at(&self, accelerations: &[Expr<'g>]) -> Found<'g> {
-        let graph = self.forces[0].graph();
-        let (zero, size) = (graph.constant(0.0), accelerations.len());
-        let own = &accelerations[self.rows.clone()];
-        let times = |row: &[Expr<'g>]| {
-            let terms = row.iter().zip(own);
-            terms.fold(zero, |sum, (s, a)| sum + *s * *a)
-        };
-        let first = self.rows.start;
+        let graph = self.terms.forces[0].graph();
+        let (rows, size) = (self.terms.rows.clone(), accelerations.len());
         let mut found = Found {
             matrix: zeros(graph, size),
-            forces: vec![zero; size],
+            forces: self.terms.needed(accelerations),
             by_position: zeros(graph, size),
             by_velocity: zeros(graph, size),
         };
-        for i in 0..self.rows.len() {
-            found.forces[first + i] = times(&self.matrix[i]) - self.forces[i];
-            found.matrix[first + i][self.rows.clone()].copy_from_slice(&self.matrix[i]);
-            for (j, along) in self.along.iter().enumerate() {
-                let [position, velocity] = [&along.forces[0], &along.forces[1]].map(|f| f[i]);
-                found.by_position[first + i][first + j] = times(&along.matrix[i]) - position;
-                found.by_velocity[first + i][first + j] = -velocity;
+        for (row, own) in found.matrix[rows.clone()]
+            .iter_mut()
+            .zip(&self.terms.matrix)
+        {
+            row[rows.clone()].copy_from_slice(own);
+        }
+        for (along, j) in self.along.iter().zip(rows) {
+            let matrices = [&mut found.by_position, &mut found.by_velocity];
+            for (matrix, terms) in matrices.into_iter().zip(along) {
+                for (row, change) in matrix.iter_mut().zip(terms.needed(accelerations)) {
+                    row[j] = change;
+                }
             }
         }
         found
-    }
-}
-
-/// The direction of the coordinates in which a unit of velocity `j` moves the model.
-pub fn tangent<'g, 'a>(
-    spatial: &Spatial<'g, 'a>,
-    state: &State<'g>,
-    j: usize,
-) -> impl Fn(Symbol) -> Expr<'g> + use<'g, 'a> {
-    let graph = spatial.graph;
-    let mut unit = State {
-        q: state.q.clone(),
-        v: vec![graph.constant(0.0); state.v.len()],
-        charts: state.charts.clone(),
-    };
-    unit.v[j] = graph.constant(1.0);
-    let rates = spatial.layout.coordinate_rates(graph, spatial.model, &unit);
-    move |symbol| match symbol {
-        Symbol::Coordinate(i) => rates[i as usize],
-        _ => graph.constant(0.0),
-    }
-}
-
-/// The fields alone, of all forces.
-fn fields<'g>(graph: &'g Graph, model: &Model, scene: &Scene<'g, '_>) -> AppliedForces<'g> {
-    let given = &scene.applied.wrenches;
-    let mut wrenches = Wrenches::none(graph, model);
-    wrenches.fields.clone_from(&given.fields);
-    for spatial in scene.systems {
-        let s = spatial.system;
-        for (k, element) in model.systems[s].elements.iter().enumerate() {
-            let force = number(graph, &element.mass) * given.partial_fields[s][k];
-            let offset = spatial
-                .motion_of(k)
-                .rotation
-                .times(vector(graph, &element.cg));
-            wrenches.elements[s][k] = Wrench {
-                force,
-                moment: offset.cross(force),
-            };
-        }
-    }
-    AppliedForces {
-        wrenches,
-        states: States {
-            auxiliaries: Vec::new(),
-            memory: Vec::new(),
-            switches: Vec::new(),
-        },
-        events: Events::none(model),
-        works: Vec::new(),
-        measures: Vec::new(),
     }
 }

@@ -1,5 +1,6 @@
 //! ∂τ/∂q and ∂τ/∂v.
 
+use super::loads::Loads;
 use super::{Found, NotDifferentiable, Scene, Way, cost, zeros};
 use crate::expression::Expr;
 
@@ -39,6 +40,15 @@ pub fn inverse_dynamics_derivatives<'g>(
             whole.forces[i] = found.forces[i];
             whole.by_position[i].clone_from(&found.by_position[i]);
             whole.by_velocity[i].clone_from(&found.by_velocity[i]);
+        }
+    }
+    // fields that only some elements feel
+    let fields = Loads::of_partial_fields(scene)?;
+    for i in 0..size {
+        whole.forces[i] = whole.forces[i] - fields.forces[i];
+        for j in 0..size {
+            whole.by_position[i][j] = whole.by_position[i][j] - fields.by_position[i][j];
+            whole.by_velocity[i][j] = whole.by_velocity[i][j] - fields.by_velocity[i][j];
         }
     }
     Ok(whole)

@@ -1,7 +1,7 @@
 //! Derivatives of the dynamics as expressions.
 //!
 //! τ is the generalised force that a motion needs besides the fields: τ(t, q, v, v̇) = S v̇ − r_s − r_f, r_f being the
-//! forces of fields (`field`) and of prescribed motions of reference joints. So S v̇ = r_s + r_f + r is the motion under
+//! forces of fields (`field`) and of the prescribed acceleration of reference joints. So S v̇ = r_s + r_f + r is the motion under
 //! the forces r of all other laws.
 //!
 //! Derivatives with respect to positions are along the tangent: column j is the derivative along the motion that a unit
@@ -13,15 +13,20 @@
 //! |---|---|
 //! | `inverse_dynamics` | τ, ∂τ/∂q, ∂τ/∂v, S |
 //! | `acceleration` | v̇, ∂v̇/∂q, ∂v̇/∂v, S⁻¹ |
+//! | `linearisation` | A, B, C, D of the whole scene with its forces |
+//! | `loads` | the generalised forces of laws, and their derivatives |
 //! | `graph` | ∂τ/∂q and ∂τ/∂v by differentiation of S and r_s, for systems that link frames cannot describe |
 
 mod acceleration;
 pub mod graph;
 mod inverse_dynamics;
+mod linearisation;
+mod loads;
 
 pub use crate::dynamics::link::derivatives::{Found, Square};
 pub use acceleration::{AccelerationDerivatives, acceleration_derivatives};
 pub use inverse_dynamics::inverse_dynamics_derivatives;
+pub use linearisation::{Linearisation, linearisation};
 
 use super::LARGEST_FACTORIZED;
 use super::link::derivatives::{InLinks, ways};
@@ -30,6 +35,7 @@ use crate::expression::count::Count;
 use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph};
 use crate::force::AppliedForces;
+use crate::model::Model;
 use crate::motion::State;
 use graph::InGraph;
 
@@ -46,9 +52,13 @@ pub struct Scene<'g, 'a> {
     pub applied: &'a AppliedForces<'g>,
 }
 
-impl<'g> Scene<'g, '_> {
+impl<'g, 'a> Scene<'g, 'a> {
     fn graph(&self) -> &'g Graph {
         self.systems[0].graph
+    }
+
+    fn model(&self) -> &'a Model {
+        self.systems[0].model
     }
 }
 

@@ -145,7 +145,12 @@ pub struct FreeBase<'g> {
 }
 
 impl<'g> FreeBase<'g> {
-    /// Sets the columns of ∂v̇/∂q that turn the base, from ∂v̇/∂v and S⁻¹: a turn of the base with the velocities and the
+    /// True for the columns of its rotation.
+    pub fn turns(&self, column: usize) -> bool {
+        (self.rotation..self.rotation + 3).contains(&column)
+    }
+
+    /// Adds the change of v̇ with a turn of the base to its columns of ∂v̇/∂q, from ∂v̇/∂v and S⁻¹: a turn of the base with the velocities and the
     /// forces r on the base turned as well turns the accelerations minus the field, and those of the joints stay.
     pub fn turn(
         &self,
@@ -160,7 +165,9 @@ impl<'g> FreeBase<'g> {
             let turned = three(&by_velocity[i], r).cross(self.omega)
                 + three(&inverse[i], x).cross(three(forces, x))
                 + three(&inverse[i], r).cross(three(forces, r));
-            row[r..r + 3].copy_from_slice(&turned.0);
+            for (entry, value) in row[r..r + 3].iter_mut().zip(turned.0) {
+                *entry = *entry + value;
+            }
         }
         let turned = [
             (x, three(accelerations, x) - self.field),
