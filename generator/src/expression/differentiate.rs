@@ -133,7 +133,7 @@ fn by_side<'g>(
     graph: &'g Graph,
     id: NodeId,
     node: Node,
-    d: impl Fn(NodeId) -> Expr<'g>,
+    d: &impl Fn(NodeId) -> Expr<'g>,
 ) -> Option<Expr<'g>> {
     let e = |a: NodeId| graph.expr(a);
     match node {

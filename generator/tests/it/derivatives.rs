@@ -21,13 +21,8 @@ use bryant_generator::motion::{Layout, Motion, State};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::path::Path;
 
-/// Calls a function with all that derivatives are made from, and symbols for v̇.
-fn with_scene(model: &Model, of: &mut dyn FnMut(&Scene<'_, '_>, &Layout)) {
-    with_start(model, &mut |scene, layout, _| of(scene, layout));
-}
-
-/// The same with the motion at the start of a run.
-fn with_start(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout, &Motion<'g>)) {
+/// Calls a function with all that derivatives are made from.
+fn with_scene(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout)) {
     let graph = Graph::new();
     let layout = Layout::of(model);
     let started = layout.start(&graph, model);
@@ -50,64 +45,69 @@ fn with_start(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout,
         })
         .collect();
     let scene = Scene {
+        graph: &graph,
+        model,
+        layout: &layout,
         state: &state,
+        motion: &motion,
+        start: &start,
         systems: &systems,
         applied: &applied,
     };
-    of(&scene, &layout, &start);
+    of(&scene, &layout);
 }
 
 /// Symbols for v̇, numbered after the parameters of the model.
 fn rates<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
-    let (graph, model) = (scene.systems[0].graph, scene.systems[0].model);
+    let (graph, model) = (scene.graph, scene.model);
     let first = model.parameters.len();
     let symbol = |i: usize| graph.symbol(Symbol::Parameter((first + i) as u32));
     (0..scene.state.v.len()).map(symbol).collect()
 }
 
-fn operations<'g>(graph: &Graph, values: impl Iterator<Item = Expr<'g>>) -> [usize; 2] {
+/// The number of operations as they are emitted.
+fn operations<'g>(graph: &Graph, values: impl Iterator<Item = Expr<'g>>) -> usize {
     let ids: Vec<NodeId> = values.map(|value| value.id()).collect();
-    let before = Count::of(graph, &ids).total();
-    let after = factor::factor(graph, &ids);
-    [before, Count::of(&after.graph, &after.roots).total()]
+    let fewer = factor::factor(graph, &ids);
+    Count::of(&fewer.graph, &fewer.roots).total()
 }
 
+/// Robots, with the most operations of ∂τ/∂q and ∂τ/∂v together, and of v̇ with its derivatives and S⁻¹.
+const ROBOTS: [(&str, &str, [usize; 2]); 3] = [
+    (
+        "panda",
+        include_str!("../../../tests/reference/panda.yaml"),
+        [2300, 4100],
+    ),
+    (
+        "ur5",
+        include_str!("../../../tests/reference/ur5.yaml"),
+        [850, 1700],
+    ),
+    (
+        "anymal",
+        include_str!("../../../tests/reference/anymal.yaml"),
+        [6200, 17000],
+    ),
+];
+
 #[test]
-#[ignore = "prints the counts of the robots in the folder ROBOTS"]
-fn counts() {
-    let folder = std::env::var("ROBOTS").expect("a folder");
-    let only = std::env::var("ROBOT").unwrap_or_default();
-    for name in ["panda", "ur5", "anymal", "hyq", "talos"] {
-        if !name.contains(&only) {
-            continue;
-        }
-        let text = std::fs::read_to_string(format!("{folder}/{name}.yaml")).expect("a model");
-        let model = read(&text);
-        with_scene(&model, &mut |scene, _| {
-            let graph = scene.systems[0].graph;
-            let a = rates(scene);
-            for way in ways(&scene.systems[0], scene.applied) {
-                let found = way.at(&a);
-                let q = found.by_position.iter().flatten().copied();
-                let v = found.by_velocity.iter().flatten().copied();
-                let s = found.matrix.iter().flatten().copied();
-                println!(
-                    "{name}: dq {:?} dv {:?} both {:?}, with τ and S {:?}",
-                    operations(graph, q.clone()),
-                    operations(graph, v.clone()),
-                    operations(graph, q.clone().chain(v.clone())),
-                    operations(
-                        graph,
-                        q.chain(v).chain(s).chain(found.forces.iter().copied())
-                    ),
-                );
-            }
-            let none = vec![graph.constant(0.0); a.len()];
-            let found = acceleration_derivatives(scene, &none).expect("derivatives");
-            println!(
-                "{name}: accelerations {:?} of it v̇ {:?}",
-                operations(graph, found.values()),
-                operations(graph, found.accelerations.iter().copied())
+fn derivatives_of_robots_take_few_operations() {
+    for (name, text, most) in ROBOTS {
+        with_scene(&read(text), &mut |scene, _| {
+            let graph = scene.graph;
+            let forces = inverse_dynamics_derivatives(scene, &rates(scene)).expect("derivatives");
+            let both = [&forces.by_position, &forces.by_velocity];
+            let none = vec![graph.constant(0.0); scene.state.v.len()];
+            let of_rates = acceleration_derivatives(scene, &none).expect("derivatives");
+            let counts = [
+                operations(graph, both.into_iter().flatten().flatten().copied()),
+                operations(graph, of_rates.values()),
+            ];
+            println!("{name}: {counts:?}");
+            assert!(
+                counts[0] <= most[0] && counts[1] <= most[1],
+                "{name}: {counts:?}"
             );
         });
     }
@@ -226,7 +226,7 @@ fn accelerations_solve_the_equations_of_their_derivatives() {
         let text = tree(&mut numbers, coordinates, kind);
         let model = read(&text);
         with_scene(&model, &mut |scene, layout| {
-            let graph = scene.systems[0].graph;
+            let graph = scene.graph;
             let size = layout.velocities.len();
             let symbols: Vec<Expr<'_>> = (1..=2 * size)
                 .map(|i| graph.symbol(Symbol::Parameter(i as u32)))
@@ -274,15 +274,7 @@ const BY_PINOCCHIO: &str = include_str!("../../../tests/reference/robot-derivati
 
 #[test]
 fn derivatives_of_robots_are_those_of_pinocchio() {
-    let robots = [
-        ("panda", include_str!("../../../tests/reference/panda.yaml")),
-        ("ur5", include_str!("../../../tests/reference/ur5.yaml")),
-        (
-            "anymal",
-            include_str!("../../../tests/reference/anymal.yaml"),
-        ),
-    ];
-    for (name, text) in robots {
+    for (name, text, _) in ROBOTS {
         let lines = BY_PINOCCHIO
             .lines()
             .map(|line| line.split(' ').collect::<Vec<_>>());
@@ -298,7 +290,7 @@ fn derivatives_of_robots_are_those_of_pinocchio() {
         assert_eq!(rows.len(), 20 * 12);
         let model = read(text);
         with_scene(&model, &mut |scene, layout| {
-            let graph = scene.systems[0].graph;
+            let graph = scene.graph;
             let size = layout.velocities.len();
             let symbols: Vec<Expr<'_>> = (0..2 * size)
                 .map(|i| graph.symbol(Symbol::Parameter(i as u32)))
@@ -549,10 +541,10 @@ impl At<'_> {
 fn check_linearisation(model: &Model, numbers: &mut Numbers, text: &str) -> Option<String> {
     let equations = derive(model);
     let mut refused = None;
-    with_start(model, &mut |scene, layout, start| {
-        let graph = scene.systems[0].graph;
+    with_scene(model, &mut |scene, layout| {
+        let graph = scene.graph;
         let all: Vec<usize> = (0..model.parameters.len()).collect();
-        let found = match linearisation(scene, start, &all) {
+        let found = match linearisation(scene, &all) {
             Ok(found) => found,
             Err(problem) => {
                 refused = Some(problem.to_string());
@@ -648,4 +640,93 @@ fn bundled_models_are_linearised_or_refused() {
         println!("{path}: {refused:?} {:.1?}", started.elapsed());
         assert_eq!(refused.is_none(), possible, "{path}: {refused:?}");
     }
+}
+
+/// Two systems with a spring between them, a third without velocities, and fields that only some elements feel.
+const TWO: &str = "model: two
+dimension: 3
+parameters: { push: 3 N, weight: 0.8 kg }
+systems:
+  - name: arm
+    reference: fixed
+    elements:
+      - { name: upper, joint: { hinge: x }, mass: weight, cg: [0, 0.1, -0.3], inertia: [0.03, 0.025, 0.02] }
+      - { name: lower, on: upper, at: [0, 0, -0.6], joint: { universal: [x, y] }, mass: 0.5, cg: [0.1, 0, -0.2], inertia: [0.01, 0.02, 0.02] }
+  - name: body
+    reference: free
+    elements:
+      - { name: box, mass: 2, cg: [0.05, 0, 0.1], inertia: [0.2, 0.3, 0.25] }
+      - { name: flap, on: box, at: [0.2, 0, 0], joint: { hinge: [0, 1, 1] }, mass: weight, cg: [0.1, 0.1, 0], inertia: [0.01, 0.01, 0.01] }
+  - name: rock
+    reference: fixed
+    elements: [{ name: stone, joint: weld, mass: 1, inertia: [1, 1, 1] }]
+forces:
+  - { field: gravity, acceleration: [0, 0, -9.81] }
+  - { field: wind, on: [arm/lower, body/flap], acceleration: [3, 1, 0] }
+";
+
+#[test]
+fn systems_pull_each_other_and_some_elements_feel_other_fields() {
+    let forces = "  - { spring: band, from: { on: arm/lower, at: [0, 0, -0.4] }, to: { on: body/box, at: [0, 0.1, 0] }, stiffness: 40 N/m, damping: 2 N*s/m, length: 0.3 m }
+  - { load: thrust, on: body/box, at: [0, 0, 0.2], force: [push, 0, 0], axes: local }
+outputs:
+  - { name: a, of: body/flap, what: acceleration, component: z }
+  - { name: f, of: spring band, what: force }
+run: { duration: 1 s, every: 0.1 s }
+";
+    let mut numbers = Numbers(4);
+    let text = format!("{TWO}{forces}");
+    for _ in 0..3 {
+        assert_eq!(check_linearisation(&read(&text), &mut numbers, &text), None);
+    }
+}
+
+#[test]
+fn without_other_forces_the_accelerations_are_those_of_the_equations() {
+    let text = format!("{TWO}run: {{ duration: 1 s, every: 0.1 s }}\n");
+    let model = read(&text);
+    let equations = derive(&model);
+    let mut numbers = Numbers(6);
+    with_scene(&model, &mut |scene, layout| {
+        let graph = scene.graph;
+        let size = layout.velocities.len();
+        let none = vec![graph.constant(0.0); size];
+        let found = acceleration_derivatives(scene, &none).expect("derivatives");
+        let a = rates(scene);
+        let forces = inverse_dynamics_derivatives(scene, &a).expect("derivatives");
+        let (q, v) = state(layout, &mut numbers);
+        let mut parameters: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
+        let at = At {
+            q: &q,
+            v: &v,
+            z: &[],
+            memory: &[],
+            parameters: &parameters,
+        };
+        let slopes = |k| at.slopes(layout, &equations.graph, &equations.accelerations, k);
+        let own = |values: Vec<Expr<'_>>| {
+            let ids: Vec<NodeId> = values.iter().map(|e| e.id()).collect();
+            let values = at.slopes(layout, graph, &ids, None);
+            values
+                .into_iter()
+                .map(|value| value.0)
+                .collect::<Vec<f64>>()
+        };
+        let rates: Vec<f64> = slopes(None).into_iter().map(|value| value.0).collect();
+        assert!(apart(&own(found.accelerations.clone()), &rates) < 1e-12);
+        for k in 0..2 * size {
+            let expected: Vec<f64> = slopes(Some(k)).into_iter().map(|value| value.1).collect();
+            let (of, k) = match k < size {
+                true => (&found.by_position, k),
+                false => (&found.by_velocity, k - size),
+            };
+            let apart = apart(&own(of.iter().map(|row| row[k]).collect()), &expected);
+            assert!(apart < 1e-11, "{k}: {apart:.1e}");
+        }
+        // at these accelerations nothing else is needed
+        parameters.extend(&rates);
+        let ids: Vec<NodeId> = forces.forces.iter().map(|e| e.id()).collect();
+        let left = values(graph, &ids, (&q, &v, &parameters), 0);
+        assert!(left.iter().all(|force| force.abs() < 1e-11), "{left:?}");
+    });
 }

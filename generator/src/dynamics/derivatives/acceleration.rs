@@ -57,7 +57,7 @@ pub(super) fn under_loads<'g>(
     loads: &Loads<'g>,
     needed: &Needed<'g, '_>,
 ) -> Result<(AccelerationDerivatives<'g>, Columns<'g>), NotDifferentiable> {
-    let (graph, size) = (scene.graph(), forces.len());
+    let (graph, size) = (scene.graph, forces.len());
     let zero = graph.constant(0.0);
     let mut whole = AccelerationDerivatives {
         accelerations: vec![zero; size],
@@ -124,7 +124,7 @@ fn by_way<'g>(
     rows: &[usize],
     (forces, loads, needed): (&[Expr<'g>], &Loads<'g>, &Needed<'g, '_>),
 ) -> Result<Vec<FoundByWay<'g>>, NotDifferentiable> {
-    let (graph, size) = (scene.graph(), forces.len());
+    let (graph, size) = (scene.graph, forces.len());
     let zero = graph.constant(0.0);
     let bias = way.bias(zero, &scene.state.v);
     let rest = way.at(&vec![zero; size]);

@@ -71,12 +71,10 @@ impl<'g> Terms<'g> {
         let mut values = values.into_iter();
         let forces: Vec<Expr<'g>> = values.by_ref().take(self.forces.len()).collect();
         let mut matrix = self.matrix.clone();
-        for i in 0..matrix.len() {
-            for j in i..matrix.len() {
-                if let Some(value) = values.next() {
-                    (matrix[i][j], matrix[j][i]) = (value, value);
-                }
-            }
+        let size = matrix.len();
+        let upper = (0..size).flat_map(|i| (i..size).map(move |j| (i, j)));
+        for ((i, j), value) in upper.zip(values) {
+            (matrix[i][j], matrix[j][i]) = (value, value);
         }
         Terms {
             rows: self.rows.clone(),

@@ -20,7 +20,7 @@ pub fn inverse_dynamics_derivatives<'g>(
     accelerations: &[Expr<'g>],
 ) -> Result<Found<'g>, NotDifferentiable> {
     let size = accelerations.len();
-    let graph = scene.graph();
+    let graph = scene.graph;
     let mut whole = Found {
         matrix: zeros(graph, size),
         forces: vec![graph.constant(0.0); size],
@@ -29,6 +29,9 @@ pub fn inverse_dynamics_derivatives<'g>(
     };
     for spatial in scene.systems {
         let rows = spatial.layout.system_velocities(spatial.system);
+        if rows.is_empty() {
+            continue;
+        }
         let ways = Way::all(scene, spatial)?.into_iter();
         let found = ways.map(|way| way.at(accelerations)).min_by_key(|found| {
             let both = found.by_position.iter().chain(&found.by_velocity);

@@ -8,7 +8,6 @@ use crate::dynamics::outputs;
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
 use crate::expression::{Expr, Node, NodeId, Symbol};
 use crate::model::ElementId;
-use crate::motion::Motion;
 
 /// A matrix by rows.
 pub type Matrix<'g> = Vec<Vec<Expr<'g>>>;
@@ -46,10 +45,9 @@ pub struct Linearisation<'g> {
 /// or has another function that cannot be differentiated in symbols. Dual numbers can.
 pub fn linearisation<'g>(
     scene: &Scene<'g, '_>,
-    start: &Motion<'g>,
     inputs: &[usize],
 ) -> Result<Linearisation<'g>, NotDifferentiable> {
-    let (graph, size) = (scene.graph(), scene.state.v.len());
+    let (graph, size) = (scene.graph, scene.state.v.len());
     let auxiliaries = &scene.applied.states.auxiliaries;
     let mut others: Vec<Symbol> = (0..auxiliaries.len())
         .map(|i| Symbol::Auxiliary(i as u32))
@@ -75,10 +73,10 @@ pub fn linearisation<'g>(
     let (of_v, of_others) = under_loads(scene, &none, &loads, &needed)?;
     let outputs = outputs::outputs(&outputs::Scene {
         graph,
-        model: scene.model(),
-        layout: scene.systems[0].layout,
-        motion: scene.systems[0].motion,
-        start,
+        model: scene.model,
+        layout: scene.layout,
+        motion: scene.motion,
+        start: scene.start,
         applied: scene.applied,
         accelerations: &of_v.accelerations,
     });
@@ -165,7 +163,7 @@ fn known<'g>(values: &[Expr<'g>], derivatives: &[Expr<'g>]) -> Known<'g> {
 
 /// ω × d in the rows of ball joints with quaternions.
 fn turns<'g>(scene: &Scene<'g, '_>, a: &mut Matrix<'g>) {
-    let quaternions = scene.systems[0].layout.quaternions();
+    let quaternions = scene.layout.quaternions();
     for spatial in scene.systems {
         for element in 0..spatial.of_system().elements.len() {
             let id = ElementId {

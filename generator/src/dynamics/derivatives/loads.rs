@@ -2,7 +2,6 @@
 
 use super::{NotDifferentiable, Scene, Square, zeros};
 use crate::dynamics::applied_forces;
-use crate::dynamics::spatial::Spatial;
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -37,7 +36,7 @@ impl<'g> Loads<'g> {
 
     /// The fields that only some elements of a system feel.
     pub fn of_partial_fields(scene: &Scene<'g, '_>) -> Result<Self, NotDifferentiable> {
-        let (graph, size) = (scene.graph(), scene.state.v.len());
+        let (graph, size) = (scene.graph, scene.state.v.len());
         let fields = &scene.applied.wrenches.partial_fields;
         if fields.iter().flatten().all(|field| field.is_zero()) {
             return Ok(Loads::none(graph, size));
@@ -48,10 +47,10 @@ impl<'g> Loads<'g> {
     /// All laws but fields that a whole system feels, with their derivatives with respect to other inputs.
     pub fn of_laws(scene: &Scene<'g, '_>, others: &[Symbol]) -> Result<Self, NotDifferentiable> {
         let given = &scene.applied.wrenches;
-        let mut wrenches = Wrenches::none(scene.graph(), scene.model());
+        let mut wrenches = Wrenches::none(scene.graph, scene.model);
         wrenches.elements.clone_from(&given.elements);
         wrenches.on_freedoms.clone_from(&given.on_freedoms);
-        Loads::of(scene, &forces(scene.model(), wrenches), others)
+        Loads::of(scene, &forces(scene.model, wrenches), others)
     }
 
     /// The forces of wrenches, with a field that no system feels.
@@ -60,7 +59,7 @@ impl<'g> Loads<'g> {
         applied: &AppliedForces<'g>,
         others: &[Symbol],
     ) -> Result<Self, NotDifferentiable> {
-        let (graph, size) = (scene.graph(), scene.state.v.len());
+        let (graph, size) = (scene.graph, scene.state.v.len());
         let zero = graph.constant(0.0);
         let forces = generalised(scene, applied);
         let mut loads = Loads::none(graph, size);
@@ -99,48 +98,41 @@ impl<'g> Scene<'g, '_> {
         roots: &[NodeId],
         known: &[Known<'g>; 2],
     ) -> Result<Vec<[Expr<'g>; 2]>, NotDifferentiable> {
-        let graph = self.graph();
-        graph.section(format!(
-            "derivatives by {}",
-            self.systems[0].layout.velocities[j].name
-        ));
+        let graph = self.graph;
+        graph.section(format!("derivatives by {}", self.layout.velocities[j].name));
         let velocity = |symbol| match symbol == Symbol::Velocity(j as u32) {
             true => graph.constant(1.0),
             false => graph.constant(0.0),
         };
-        let tangent = tangent(&self.systems[0], self.state, j);
+        let tangent = self.tangent(j);
         let [position, rate] = known;
         let position = differentiate_almost_everywhere(graph, roots, position, tangent)?;
         let velocity = differentiate_almost_everywhere(graph, roots, rate, velocity)?;
         let both = position.into_iter().zip(velocity);
         Ok(both.map(|(q, v)| [graph.expr(q), graph.expr(v)]).collect())
     }
-}
 
-/// The direction of the coordinates in which a unit of velocity `j` moves the model.
-fn tangent<'g, 'a>(
-    spatial: &Spatial<'g, 'a>,
-    state: &State<'g>,
-    j: usize,
-) -> impl Fn(Symbol) -> Expr<'g> + use<'g, 'a> {
-    let graph = spatial.graph;
-    let mut unit = State {
-        q: state.q.clone(),
-        v: vec![graph.constant(0.0); state.v.len()],
-        charts: state.charts.clone(),
-    };
-    unit.v[j] = graph.constant(1.0);
-    let rates = spatial.layout.coordinate_rates(graph, spatial.model, &unit);
-    move |symbol| match symbol {
-        Symbol::Coordinate(i) => rates[i as usize],
-        _ => graph.constant(0.0),
+    /// The direction of the coordinates in which a unit of velocity `j` moves the model.
+    fn tangent(&self, j: usize) -> impl Fn(Symbol) -> Expr<'g> + use<'g> {
+        let graph = self.graph;
+        let mut unit = State {
+            q: self.state.q.clone(),
+            v: vec![graph.constant(0.0); self.state.v.len()],
+            charts: self.state.charts.clone(),
+        };
+        unit.v[j] = graph.constant(1.0);
+        let rates = self.layout.coordinate_rates(graph, self.model, &unit);
+        move |symbol| match symbol {
+            Symbol::Coordinate(i) => rates[i as usize],
+            _ => graph.constant(0.0),
+        }
     }
 }
 
 /// The generalised forces of wrenches alone, whatever the reference joints do.
 fn generalised<'g>(scene: &Scene<'g, '_>, applied: &AppliedForces<'g>) -> Vec<Expr<'g>> {
-    let graph = scene.graph();
-    let mut wrenches = Wrenches::none(graph, scene.model());
+    let graph = scene.graph;
+    let mut wrenches = Wrenches::none(graph, scene.model);
     wrenches.elements.clone_from(&applied.wrenches.elements);
     wrenches
         .on_freedoms
@@ -150,13 +142,13 @@ fn generalised<'g>(scene: &Scene<'g, '_>, applied: &AppliedForces<'g>) -> Vec<Ex
         .map(|spatial| reference_acceleration(graph, spatial.of_system(), spatial.motion))
         .collect();
     let (zero, size) = (graph.constant(0.0), scene.state.v.len());
-    let alone = forces(scene.model(), wrenches);
+    let alone = forces(scene.model, wrenches);
     applied_forces::applied_forces(scene.systems, &alone, zero, size)
 }
 
 /// The forces of fields that only some elements of a system feel.
 fn partial_fields<'g>(scene: &Scene<'g, '_>) -> AppliedForces<'g> {
-    let (graph, model) = (scene.graph(), scene.model());
+    let (graph, model) = (scene.graph, scene.model);
     let mut wrenches = Wrenches::none(graph, model);
     for spatial in scene.systems {
         let s = spatial.system;

@@ -36,7 +36,7 @@ use crate::expression::passes::factor;
 use crate::expression::{Expr, Graph};
 use crate::force::AppliedForces;
 use crate::model::Model;
-use crate::motion::State;
+use crate::motion::{Layout, Motion, State};
 use graph::InGraph;
 
 pub use crate::expression::differentiate::NotDifferentiable;
@@ -44,22 +44,22 @@ pub use crate::expression::differentiate::NotDifferentiable;
 /// All that derivatives are made from.
 #[derive(Clone, Copy)]
 pub struct Scene<'g, 'a> {
+    /// The graph of the expressions.
+    pub graph: &'g Graph,
+    /// The model.
+    pub model: &'a Model,
+    /// Its coordinates.
+    pub layout: &'a Layout,
     /// The state as symbols.
     pub state: &'a State<'g>,
+    /// The motion in this state.
+    pub motion: &'a Motion<'g>,
+    /// The motion at the start of a run.
+    pub start: &'a Motion<'g>,
     /// All systems of the model.
     pub systems: &'a [Spatial<'g, 'a>],
     /// The applied forces.
     pub applied: &'a AppliedForces<'g>,
-}
-
-impl<'g, 'a> Scene<'g, 'a> {
-    fn graph(&self) -> &'g Graph {
-        self.systems[0].graph
-    }
-
-    fn model(&self) -> &'a Model {
-        self.systems[0].model
-    }
 }
 
 /// A way to derive τ and its derivatives for a system.

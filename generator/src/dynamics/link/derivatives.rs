@@ -116,21 +116,21 @@ pub struct Found<'g> {
 
 /// All ways of writing a system in link frames that are worth a comparison; none if link frames cannot be used.
 pub fn ways<'g>(spatial: &Spatial<'g, '_>, applied: &AppliedForces<'g>) -> Vec<InLinks<'g>> {
-    let tree = || Tree::of(spatial, Some(applied));
-    let Some(first) = tree().filter(|tree| is_possible(spatial, tree)) else {
+    let tree = Tree::of(spatial, Some(applied));
+    let Some(tree) = tree.filter(|tree| is_possible(spatial, tree)) else {
         return Vec::new();
     };
     let aims = [Aim::Matrices, Aim::Factorization, Aim::Elimination];
     let mut choices: Vec<Choice> = Vec::new();
     for aim in aims {
-        let mut choice = search::choice(&first, aim);
+        let mut choice = search::choice(&tree, aim);
         choice.base = [0.0; 3];
         if !choices.contains(&choice) {
             choices.push(choice);
         }
     }
     let ways = choices.into_iter();
-    ways.filter_map(|choice| Some(InLinks::of(spatial, applied, tree()?, choice)))
+    ways.filter_map(|choice| InLinks::of(spatial, applied, choice))
         .collect()
 }
 
@@ -197,24 +197,22 @@ fn is_possible(spatial: &Spatial<'_, '_>, tree: &Tree<'_>) -> bool {
 }
 
 impl<'g> InLinks<'g> {
-    fn of(
+    /// The system in chosen frames; `None` if link frames cannot be used.
+    pub fn of(
         spatial: &Spatial<'g, '_>,
         applied: &AppliedForces<'g>,
-        tree: Tree<'g>,
         choice: Choice,
-    ) -> Self {
-        InLinks {
+    ) -> Option<Self> {
+        let tree = Tree::of(spatial, Some(applied)).filter(|tree| is_possible(spatial, tree))?;
+        let links = tree.links.iter();
+        Some(InLinks {
             framed: Framed::of(&tree, &natural_axes(&tree), &choice),
-            names: tree
-                .links
-                .iter()
-                .map(|l| spatial.label(l.element))
-                .collect(),
+            names: links.map(|link| spatial.label(link.element)).collect(),
             tree,
             choice,
             field: applied.wrenches.fields[spatial.system],
             size: spatial.layout.velocities.len(),
-        }
+        })
     }
 
     fn written(&self) -> Written<'g, '_> {
