@@ -13,6 +13,7 @@
 use crate::expression::{Expr, Graph};
 use crate::model::{Dimension, Model, Number};
 use crate::motion::Layout;
+use rustc_hash::FxHashMap;
 use std::ops::{Mul, Range, Sub};
 
 /// L D Lᵀ of a symmetric positive definite matrix.
@@ -24,6 +25,9 @@ pub struct Ldl<'g> {
     /// 1/d
     inverse_diagonal: Vec<Expr<'g>>,
 }
+
+/// Factors of unknowns with respect to those further inboard, by place and by the first of the others.
+pub type Branches<'g> = FxHashMap<(usize, usize), Vec<(usize, Expr<'g>)>>;
 
 impl<'g> Ldl<'g> {
     /// Factorises a matrix, given its lower triangle by rows, with the diagonal.
@@ -55,6 +59,14 @@ impl<'g> Ldl<'g> {
             diagonal,
             inverse_diagonal,
         }
+    }
+
+    /// The graph of its entries.
+    ///
+    /// # Panics
+    /// If the matrix has no rows.
+    pub fn graph(&self) -> &'g Graph {
+        self.diagonal[0].graph()
     }
 
     /// L⁻¹ b, where b has numbers or rows of a matrix.
@@ -93,6 +105,71 @@ impl<'g> Ldl<'g> {
             }
         }
         z
+    }
+
+    /// L⁻ᵀ z for many z with zeros: an unknown whose own entry of z is 0, as that of a joint on another branch than the
+    /// forces, follows from the unknowns of the joints that its branch and theirs have in common.
+    pub fn backward_by_branches(
+        &self,
+        mut z: Vec<Expr<'g>>,
+        known: &mut Branches<'g>,
+    ) -> Vec<Expr<'g>> {
+        for k in (0..z.len()).rev() {
+            let zero = z[k].graph().constant(0.0);
+            let first = z[k].is_zero().then(|| self.first_not_zero(k, &z)).flatten();
+            let terms = match first {
+                Some(first) => self.in_terms_of(k, first, known),
+                None => Vec::new(),
+            };
+            let direct = (k + 1..z.len()).filter(|&i| !self.lower[i][k].is_zero());
+            z[k] = match first.is_some() && terms.len() < direct.clone().count() {
+                true => terms.iter().fold(zero, |sum, &(i, r)| sum - r * z[i]),
+                false => direct.fold(z[k], |sum, i| sum - self.lower[i][k] * z[i]),
+            };
+        }
+        z
+    }
+
+    /// The first place after k, among those on which unknown k depends, with a value that is not 0 before the values
+    /// after it are taken away.
+    fn first_not_zero(&self, k: usize, z: &[Expr<'g>]) -> Option<usize> {
+        let mut reached = vec![false; z.len()];
+        reached[k] = true;
+        for i in k + 1..z.len() {
+            reached[i] = (k..i).any(|j| reached[j] && !self.lower[i][j].is_zero());
+            if reached[i] && !z[i].is_zero() {
+                return Some(i);
+            }
+        }
+        None
+    }
+
+    /// The factors of unknown k with respect to the unknowns from `first` on, if all before have no z of their own: minus
+    /// k is the sum of the products.
+    fn in_terms_of(
+        &self,
+        k: usize,
+        first: usize,
+        known: &mut Branches<'g>,
+    ) -> Vec<(usize, Expr<'g>)> {
+        if let Some(terms) = known.get(&(k, first)) {
+            return terms.clone();
+        }
+        let size = self.lower.len();
+        let mut factors: Vec<Expr<'g>> = (first..size).map(|i| self.lower[i][k]).collect();
+        for m in k + 1..first {
+            let factor = self.lower[m][k];
+            if factor.is_zero() {
+                continue;
+            }
+            for (i, of) in self.in_terms_of(m, first, known) {
+                factors[i - first] = factors[i - first] - factor * of;
+            }
+        }
+        let terms = (first..size).zip(factors).filter(|(_, f)| !f.is_zero());
+        let terms: Vec<(usize, Expr<'g>)> = terms.collect();
+        known.insert((k, first), terms.clone());
+        terms
     }
 
     /// The solution of L D Lᵀ x = b.
@@ -176,7 +253,7 @@ pub fn accelerations_of<'g>(
 }
 
 /// Indices of the velocities, with each element before the one that carries it.
-fn outboard_first(rows: Range<usize>) -> Vec<usize> {
+pub fn outboard_first(rows: Range<usize>) -> Vec<usize> {
     rows.rev().collect()
 }
 
@@ -187,10 +264,17 @@ fn triangle<'g>(
     matrix: &[Vec<Option<Expr<'g>>>],
 ) -> Vec<Vec<Expr<'g>>> {
     let zero = graph.constant(0.0);
+    triangle_of(order, |row, column| matrix[row][column].unwrap_or(zero))
+}
+
+/// The lower triangle of the symmetric matrix with these entries, with its rows in this order.
+pub fn triangle_of<'g>(
+    order: &[usize],
+    entry: impl Fn(usize, usize) -> Expr<'g>,
+) -> Vec<Vec<Expr<'g>>> {
     let row = |(i, &row): (usize, &usize)| {
         let columns = order[..=i].iter();
-        let entry = columns.map(|&column| matrix[row][column].unwrap_or(zero));
-        entry.collect()
+        columns.map(|&column| entry(row, column)).collect()
     };
     order.iter().enumerate().map(row).collect()
 }

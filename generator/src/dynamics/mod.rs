@@ -39,6 +39,9 @@ mod bias_forces;
 pub mod charts;
 mod conditions;
 mod curves_of_time;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod derivatives;
 mod elimination;
 mod energy;
 mod factorization;

@@ -10,13 +10,13 @@
 //! accelerations.
 //!
 //! The derivative of a curve is its slope, which is differentiable except at the points. The larger of two values is
-//! differentiable here only if both have the same derivative: the graph has no choice by sign, and a derivative that is
-//! correct on one side alone would be a trap. The same holds for force laws with branches. With dual numbers, all of
-//! these can be differentiated at run time.
+//! differentiable here only if both have the same derivative, because a derivative that is correct on one side alone
+//! would be a trap, unless it is asked for ([`differentiate_almost_everywhere`]). The same holds for force laws with
+//! branches. With dual numbers, all of these can be differentiated at run time.
 
-use super::graph::{Expr, Graph};
-use super::live::Live;
+use super::graph::{Expr, Graph, choose};
 use super::node::{Function, Node, NodeId, Symbol};
+use super::passes::needed;
 use rustc_hash::FxHashMap;
 
 /// A node that cannot be differentiated.
@@ -62,11 +62,49 @@ pub fn differentiate_along<'g>(
     roots: &[NodeId],
     direction: impl Fn(Symbol) -> Expr<'g>,
 ) -> Result<Vec<NodeId>, NotDifferentiable> {
+    along(graph, roots, Kinks::Refused, &Known::default(), direction)
+}
+
+/// Derivatives that are known, by node.
+pub type Known<'g> = FxHashMap<NodeId, Expr<'g>>;
+
+/// The same as [`differentiate_along`] with the derivatives of some nodes known, and almost everywhere: where values
+/// are chosen by a condition, their derivatives are chosen by the same condition. So at a kink the derivative is that
+/// of the side whose value is taken, as with dual numbers.
+pub fn differentiate_almost_everywhere<'g>(
+    graph: &'g Graph,
+    roots: &[NodeId],
+    known: &Known<'g>,
+    direction: impl Fn(Symbol) -> Expr<'g>,
+) -> Result<Vec<NodeId>, NotDifferentiable> {
+    along(graph, roots, Kinks::BySide, known, direction)
+}
+
+/// What the derivative is where two values are compared.
+#[derive(Clone, Copy, PartialEq)]
+enum Kinks {
+    /// There is none.
+    Refused,
+    /// That of the side that is taken.
+    BySide,
+}
+
+fn along<'g>(
+    graph: &'g Graph,
+    roots: &[NodeId],
+    kinks: Kinks,
+    known: &Known<'g>,
+    direction: impl Fn(Symbol) -> Expr<'g>,
+) -> Result<Vec<NodeId>, NotDifferentiable> {
     // holds only derivatives that are not 0, because few nodes depend on a single symbol
-    let mut derivative: FxHashMap<NodeId, Expr<'g>> = FxHashMap::default();
-    for &id in Live::new(graph, roots).nodes() {
+    let mut derivative: Known<'g> = FxHashMap::default();
+    for id in needed(graph, roots, known) {
         let node = graph.node(id);
-        if let Node::Symbol(symbol) = node {
+        if let Some(own) = known.get(&id) {
+            if !own.is_zero() {
+                derivative.insert(id, *own);
+            }
+        } else if let Node::Symbol(symbol) = node {
             let own = direction(symbol);
             if !own.is_zero() {
                 derivative.insert(id, own);
@@ -76,7 +114,10 @@ pub fn differentiate_along<'g>(
                 let zero = || graph.constant(0.0);
                 derivative.get(&a).copied().unwrap_or_else(zero)
             };
-            let own = rule(graph, id, node, d)?;
+            let own = match (kinks, by_side(graph, id, node, &d)) {
+                (Kinks::BySide, Some(own)) => own,
+                _ => rule(graph, id, node, d)?,
+            };
             if !own.is_zero() {
                 derivative.insert(id, own);
             }
@@ -85,6 +126,31 @@ pub fn differentiate_along<'g>(
     let zero = graph.constant(0.0);
     let of = |root: &NodeId| derivative.get(root).unwrap_or(&zero).id();
     Ok(roots.iter().map(of).collect())
+}
+
+/// The derivative of a value that is chosen by a comparison, from those of its operands; `None` for other nodes.
+fn by_side<'g>(
+    graph: &'g Graph,
+    id: NodeId,
+    node: Node,
+    d: &impl Fn(NodeId) -> Expr<'g>,
+) -> Option<Expr<'g>> {
+    let e = |a: NodeId| graph.expr(a);
+    match node {
+        // the comparisons of the runtime
+        Node::Max(a, b) => Some(choose(e(a), e(b), d(b), d(a))),
+        Node::Min(a, b) => Some(choose(e(b), e(a), d(b), d(a))),
+        Node::Call(Function::Choose, _) => match graph.arguments(id)[..] {
+            [a, b, then, otherwise] => Some(choose(e(a), e(b), d(then), d(otherwise))),
+            _ => None,
+        },
+        Node::Call(Function::Power, [base, exponent, _]) if d(exponent).is_zero() => {
+            let less = e(exponent) - graph.constant(1.0);
+            let power = graph.call(Function::Power, &[e(base), less]);
+            Some(e(exponent) * power * d(base))
+        }
+        _ => None,
+    }
 }
 
 /// The derivative of a node, from those of its operands.
@@ -281,6 +347,52 @@ mod tests {
             differentiate(&graph, &[parallel.id()], X),
             Ok(vec![graph.constant(1.0).id()])
         );
+    }
+
+    #[test]
+    fn almost_everywhere_the_side_that_is_taken_counts() {
+        use crate::expression::evaluate::{Inputs, evaluate};
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(X), graph.symbol(Y));
+        let given = x * x + y;
+        let known = Known::from_iter([(given.id(), 7.0 * y)]);
+        let roots = [
+            x.max(2.0 * y),
+            x.min(2.0 * y),
+            graph.call(Function::Choose, &[x, y, x * y, 3.0 * x]),
+            graph.call(Function::Power, &[x, graph.constant(2.5)]),
+            x * given,
+        ]
+        .map(|root| root.id());
+        let direction = |s| graph.constant(if s == X { 1.0 } else { 0.0 });
+        let found = differentiate_almost_everywhere(&graph, &roots, &known, direction);
+        let found = found.expect("derivatives");
+        let at = |x: f64, y: f64| {
+            let inputs = Inputs {
+                time: 0.0,
+                coordinates: &[x, y],
+                velocities: &[],
+                parameters: &[],
+                auxiliaries: &[],
+                memory: &[],
+            };
+            let call = |function: Function, a: &[f64]| match (function, a) {
+                (Function::Power, &[x, y]) => libm::pow(x, y),
+                (_, &[a, b, then, otherwise]) => {
+                    if a < b {
+                        then
+                    } else {
+                        otherwise
+                    }
+                }
+                _ => f64::NAN,
+            };
+            evaluate(&graph, &found, &inputs, &call)
+        };
+        assert_eq!(at(4.0, 1.0), [1.0, 0.0, 3.0, 20.0, 17.0 + 28.0]);
+        assert_eq!(at(4.0, 5.0), [0.0, 1.0, 5.0, 20.0, 21.0 + 140.0]);
+        let exponent = graph.call(Function::Power, &[y, x]).id();
+        assert!(differentiate_almost_everywhere(&graph, &[exponent], &known, direction).is_err());
     }
 
     #[test]

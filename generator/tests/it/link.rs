@@ -19,7 +19,7 @@ use bryant_generator::motion::{Layout, Motion, State};
 use bryant_generator::read_str;
 use std::path::Path;
 
-fn read(text: &str) -> Model {
+pub fn read(text: &str) -> Model {
     let none = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
     match read_str("model.yaml", text, &none) {
         Ok((model, _)) => model,
@@ -28,10 +28,10 @@ fn read(text: &str) -> Model {
 }
 
 /// Pseudo-random numbers from −1 to 1.
-struct Numbers(u64);
+pub struct Numbers(pub u64);
 
 impl Numbers {
-    fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6364136223846793005)
@@ -39,7 +39,7 @@ impl Numbers {
         (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn below(&mut self, count: usize) -> usize {
+    pub fn below(&mut self, count: usize) -> usize {
         ((self.next() * 0.5 + 0.5) * count as f64) as usize
     }
 
@@ -94,7 +94,7 @@ fn almost_along_an_axis(numbers: &mut Numbers) -> String {
 
 /// The kind of random trees.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
+pub enum Kind {
     /// All joints, with hinges more often than others.
     Any,
     /// Hinges along axes, except for a small angle.
@@ -136,7 +136,7 @@ fn coupled(
 }
 
 /// A random tree with forces on some elements.
-fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
+pub fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
     let angles = ["0.3, -0.2, 0.5", "turn, { curve: turn, times: -0.7 }, 0.5"][numbers.below(2)];

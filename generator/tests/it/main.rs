@@ -1,6 +1,7 @@
 //! The generator as its users call it, in one program, so that it is linked once.
 
 mod config;
+mod derivatives;
 mod effects;
 mod emission;
 mod imports;

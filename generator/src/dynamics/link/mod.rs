@@ -19,11 +19,13 @@
 //! | `wrench` | how bodies and wrenches are passed from a link to its parent |
 //! | `mass_matrix` | S by composite bodies |
 //! | `forces` | generalised forces |
+//! | `derivatives` | the derivatives of the generalised forces that a motion needs |
 //! | `search` | the choice of frames by operation count |
 
 mod articulated;
 mod axis;
 mod body;
+pub mod derivatives;
 pub mod elimination;
 mod forces;
 pub mod frames;

@@ -189,12 +189,7 @@ pub fn motion<'g>(
     choice: &Choice,
     reference: Reference,
 ) -> Vec<LinkMotion<'g>> {
-    let ground = LinkMotion {
-        omega: tree.ground.omega,
-        alpha: tree.ground.alpha,
-        acceleration: (1.0 / choice.unit) * tree.ground.acceleration,
-        reference: tree.graph.constant(0.0),
-    };
+    let ground = on_ground(tree, choice);
     let mut motions: Vec<LinkMotion<'g>> = Vec::new();
     for (k, link) in tree.links.iter().enumerate() {
         let parent = link.parent.map_or(&ground, |p| &motions[p]);
@@ -205,6 +200,67 @@ pub fn motion<'g>(
         motions.push(motion);
     }
     motions
+}
+
+/// The motion at given v̇.
+pub struct Given<'g, 'a> {
+    /// v̇
+    pub accelerations: &'a [Expr<'g>],
+    /// The field on a free base, in absolute axes \[m/s²\]; the ground of any other system has it.
+    pub field: Vec3<'g>,
+}
+
+impl<'g> Given<'g, '_> {
+    /// The motion of all links; a⁰ is the acceleration minus the field.
+    pub fn motion(
+        &self,
+        tree: &Tree<'g>,
+        framed: &Framed<'g>,
+        choice: &Choice,
+    ) -> Vec<LinkMotion<'g>> {
+        let given = self.accelerations;
+        let three = |first: usize| Vec3([0, 1, 2].map(|i| given[first + i]));
+        let ground = on_ground(tree, choice);
+        let mut motions: Vec<LinkMotion<'g>> = Vec::new();
+        for (k, link) in tree.links.iter().enumerate() {
+            let parent = link.parent.map_or(&ground, |p| &motions[p]);
+            let mut motion = of_link(tree, framed, choice, Reference::Rest, k, parent);
+            let sign = framed.links[k].sign;
+            match (&link.joint, tree.base) {
+                (LinkJoint::Ball { .. }, Some(base)) if k == 0 => {
+                    let own = |v: Vec3<'g>| link.rotation.transposed_times(v);
+                    motion.alpha = own(three(link.row));
+                    motion.acceleration = (1.0 / choice.unit) * own(three(base) - self.field);
+                }
+                (LinkJoint::Ball { .. }, _) => {
+                    motion.alpha = motion.alpha + link.rotation.transposed_times(three(link.row));
+                }
+                (
+                    LinkJoint::Axis {
+                        turn, slide, ratio, ..
+                    },
+                    _,
+                ) => {
+                    let rate = sign * (*ratio * given[link.row]);
+                    let along = (1.0 / choice.unit) * *slide;
+                    motion.alpha.0[2] = motion.alpha.0[2] + *turn * rate;
+                    motion.acceleration.0[2] = motion.acceleration.0[2] + along * rate;
+                }
+            }
+            motions.push(motion);
+        }
+        motions
+    }
+}
+
+/// The motion of the ground, which carries the first link.
+fn on_ground<'g>(tree: &Tree<'g>, choice: &Choice) -> LinkMotion<'g> {
+    LinkMotion {
+        omega: tree.ground.omega,
+        alpha: tree.ground.alpha,
+        acceleration: (1.0 / choice.unit) * tree.ground.acceleration,
+        reference: tree.graph.constant(0.0),
+    }
 }
 
 /// The reference motion of link `k`, given that of its parent.

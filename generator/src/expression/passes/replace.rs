@@ -65,11 +65,7 @@ pub fn restore(rewritten: Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeI
 }
 
 /// The nodes that the roots need, in order of creation, without nodes that only replaced nodes need.
-pub fn needed(
-    graph: &Graph,
-    roots: &[NodeId],
-    by: &FxHashMap<NodeId, (Symbol, bool)>,
-) -> Vec<NodeId> {
+pub fn needed<T>(graph: &Graph, roots: &[NodeId], by: &FxHashMap<NodeId, T>) -> Vec<NodeId> {
     let nodes = graph.nodes();
     let mut needed = vec![false; nodes.len()];
     for root in roots {
