@@ -156,9 +156,29 @@ impl Config {
     /// The functions that are asked for, of this model. `file` stands for the model in messages.
     ///
     /// # Errors
-    /// All functions and frames that the model does not have.
+    /// All functions and frames that the model does not have; functions whose derivation is not possible, because the model
+    /// has a law that cannot be differentiated in symbols.
     pub fn requests(&self, model: &Model, file: &str) -> Result<Vec<Request>, Diagnostics> {
-        requests(model, file, self.functions.iter().map(String::as_str))
+        let found = requests(model, file, self.functions.iter().map(String::as_str))?;
+        let doubtful = found.iter().filter(|of| of.function().may_be_impossible());
+        let doubtful: Vec<Request> = doubtful.cloned().collect();
+        if doubtful.is_empty() {
+            return Ok(found);
+        }
+        let equations = dynamics::derive_functions(model, dynamics::Options::default(), &doubtful);
+        let problems = equations.impossible.iter().map(|of| {
+            let (function, what) = (&of.function, of.what);
+            Diagnostic::of_file(
+                file,
+                format!("{function} is not possible: {what} cannot be differentiated in symbols"),
+                "differentiate by dual numbers, as `bryant gradient` and the engine over `Dual` do, or leave the law out",
+            )
+        });
+        let problems: Vec<Diagnostic> = problems.collect();
+        match problems.is_empty() {
+            true => Ok(found),
+            false => Err(Diagnostics { problems }),
+        }
     }
 
     /// The equations of a model, with the functions that are asked for.

@@ -62,6 +62,8 @@ pub struct Equations {
     pub sections: Vec<Section>,
     /// The functions that are asked for, in the order of the requests.
     pub functions: Vec<Function>,
+    /// The functions that are asked for and that the model cannot have.
+    pub impossible: Vec<Impossible>,
     /// The model's outputs, in its order.
     pub outputs: Vec<NodeId>,
     /// Curves of time: for each its index, and the factor of time in its abscissa.
@@ -134,6 +136,15 @@ pub struct Function {
     pub columns: Vec<String>,
     /// The values, by rows.
     pub values: Vec<NodeId>,
+}
+
+/// A function that a model cannot have, because one of its laws cannot be differentiated in symbols.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Impossible {
+    /// The name of the function.
+    pub function: String,
+    /// What cannot be differentiated.
+    pub what: &'static str,
 }
 
 impl Equations {

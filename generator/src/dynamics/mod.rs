@@ -107,7 +107,8 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
     derive_without(model, options, None)
 }
 
-/// Derives the equations of a model, with the [functions](functions) that are asked for.
+/// Derives the equations of a model, with the [functions](functions) that are asked for; those that the model cannot have
+/// are named in [`Equations::impossible`].
 pub fn derive_functions(model: &Model, options: Options, requests: &[Request]) -> Equations {
     derive_in(model, options, requests, None, |graph, layout| {
         State::symbols(graph, layout)
@@ -248,8 +249,9 @@ fn in_graph(
     };
     let outputs = outputs::outputs(&scene);
     let sections = sections::of(&scene);
-    let known = Known::new(&scene, &systems, options.matrices.then_some(&matrices));
-    let functions = known.functions(requests);
+    let derived = options.matrices.then_some(&matrices);
+    let known = Known::new(&scene, &state, &systems, derived);
+    let (functions, impossible) = known.functions(requests);
     let triggers = scene.triggers();
     force::switch::complete(graph, model, &mut applied, &triggers);
     let kinks = applied.kinks(graph);
@@ -297,6 +299,7 @@ fn in_graph(
         pivots: named(&pivots),
         sections,
         functions,
+        impossible,
         outputs: ids(&outputs),
         curves_of_time: curves_of_time::of(graph, &needed),
         quaternions: layout.quaternions(),

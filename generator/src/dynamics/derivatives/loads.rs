@@ -46,11 +46,7 @@ impl<'g> Loads<'g> {
 
     /// All laws but fields that a whole system feels, with their derivatives with respect to other inputs.
     pub fn of_laws(scene: &Scene<'g, '_>, others: &[Symbol]) -> Result<Self, NotDifferentiable> {
-        let given = &scene.applied.wrenches;
-        let mut wrenches = Wrenches::none(scene.graph, scene.model);
-        wrenches.elements.clone_from(&given.elements);
-        wrenches.on_freedoms.clone_from(&given.on_freedoms);
-        Loads::of(scene, &forces(scene.model, wrenches), others)
+        Loads::of(scene, scene.applied, others)
     }
 
     /// The forces of wrenches, with a field that no system feels.
@@ -127,6 +123,13 @@ impl<'g> Scene<'g, '_> {
             _ => graph.constant(0.0),
         }
     }
+}
+
+/// r \[N m or N, in the order of v\]: the generalised forces of all laws but fields.
+pub fn of_laws_but_fields<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+    let laws = generalised(scene, scene.applied).into_iter();
+    let fields = generalised(scene, &partial_fields(scene));
+    laws.zip(fields).map(|(all, field)| all - field).collect()
 }
 
 /// The generalised forces of wrenches alone, whatever the reference joints do.

@@ -27,6 +27,7 @@ pub use crate::dynamics::link::derivatives::{Found, Square};
 pub use acceleration::{AccelerationDerivatives, acceleration_derivatives};
 pub use inverse_dynamics::inverse_dynamics_derivatives;
 pub use linearisation::{Linearisation, linearisation};
+pub use loads::of_laws_but_fields;
 
 use super::LARGEST_FACTORIZED;
 use super::link::derivatives::{InLinks, ways};

@@ -9,6 +9,7 @@
 //! | `regressor` | how inverse dynamics depends on masses and inertias |
 //! | `frame` | pose, velocity and Jacobian of a frame |
 //! | `whole` | centre of mass, centroidal momentum, energies |
+//! | `derivatives` | derivatives of inverse dynamics and of accelerations, linearisation |
 //!
 //! With v̇ = a, a mechanism needs the forces S a − r_s. Of r_k, `gravity_forces` r_g are those of all fields, and of the
 //! given acceleration of what carries a system. So the joints and laws have to provide τ = S a − r_s − r_g, and in the
@@ -17,6 +18,7 @@
 //! Vectors are in absolute axes. Of a motion or a wrench the linear part comes first; the velocity of a frame is that of
 //! its origin. Matrices are by rows.
 
+mod derivatives;
 mod forces;
 mod frame;
 mod regressor;
@@ -25,28 +27,30 @@ mod whole;
 
 pub use request::{Frame, Request, request, requests};
 
+use super::derivatives::NotDifferentiable;
 use super::matrices::Matrices;
 use super::outputs::Scene;
 use super::spatial::Spatial;
 use crate::equations;
 use crate::expression::{Expr, Symbol};
 use crate::method::argument::Argument;
-use crate::model::Model;
-use crate::motion::Layout;
+use crate::motion::State;
 use std::cell::OnceCell;
 
 /// A function that gives names of rows or columns.
-type Names = fn(&Model, &Layout) -> Vec<String>;
+type Names = fn(&Known<'_, '_>) -> Vec<String>;
 
 /// How the values of a function are derived, by rows.
 enum Derive {
     /// Of the whole scene.
     OfScene(for<'g> fn(&Known<'g, '_>) -> Vec<Expr<'g>>),
+    /// Of the whole scene, unless one of its laws cannot be differentiated in symbols.
+    OfSmoothScene(for<'g> fn(&Known<'g, '_>) -> Result<Vec<Expr<'g>>, NotDifferentiable>),
     /// Of a frame, which is the argument of the function.
     OfFrame(for<'g> fn(&Known<'g, '_>, &Frame) -> Vec<Expr<'g>>),
 }
 
-use Derive::{OfFrame, OfScene};
+use Derive::{OfFrame, OfScene, OfSmoothScene};
 
 /// A row of the table.
 pub struct Function {
@@ -64,6 +68,11 @@ pub struct Function {
 }
 
 impl Function {
+    /// True if a model may not have it, because one of its laws cannot be differentiated in symbols.
+    pub fn may_be_impossible(&self) -> bool {
+        matches!(self.derive, OfSmoothScene(_))
+    }
+
     /// True if its argument is a frame.
     pub fn is_of_frame(&self) -> bool {
         matches!(self.derive, OfFrame(_))
@@ -87,6 +96,30 @@ pub const FUNCTIONS: &[Function] = &[
         rows: velocities,
         columns: one,
         derive: OfScene(forces::inverse_dynamics),
+    },
+    Function {
+        name: "inverse_dynamics_derivatives",
+        sentence: "The derivatives of inverse dynamics along the motion of each velocity, and beside them those by each velocity.",
+        arguments: OF_ACCELERATIONS,
+        rows: velocities,
+        columns: derivatives::motions_and_velocities,
+        derive: OfSmoothScene(derivatives::of_inverse_dynamics),
+    },
+    Function {
+        name: "acceleration_derivatives",
+        sentence: "The accelerations, and beside them their derivatives along the motion of each velocity, by each velocity and by each generalised force (the inverse of S), with the forces of all laws but fields constant.",
+        arguments: OF_MOTION,
+        rows: velocities,
+        columns: derivatives::value_and_derivatives,
+        derive: OfSmoothScene(derivatives::of_accelerations),
+    },
+    Function {
+        name: "linearisation",
+        sentence: "A and B, and below them C and D, of the whole scene with its forces: the rates of positions, velocities and states of laws, and the outputs, by these and by the inputs.",
+        arguments: OF_MOTION,
+        rows: derivatives::rates_and_outputs,
+        columns: derivatives::state_and_inputs,
+        derive: OfSmoothScene(derivatives::of_scene),
     },
     Function {
         name: "mass_matrix",
@@ -210,20 +243,21 @@ pub const FUNCTIONS: &[Function] = &[
     },
 ];
 
-fn one(_: &Model, _: &Layout) -> Vec<String> {
+fn one(_: &Known<'_, '_>) -> Vec<String> {
     vec![String::new()]
 }
 
-fn velocities(_: &Model, layout: &Layout) -> Vec<String> {
+fn velocities(known: &Known<'_, '_>) -> Vec<String> {
+    let layout = known.scene.layout;
     layout.velocities.iter().map(|v| v.name.clone()).collect()
 }
 
 /// For each element m, h and J about its origin, in its axes.
-fn inertial_parameters(model: &Model, _: &Layout) -> Vec<String> {
+fn inertial_parameters(known: &Known<'_, '_>) -> Vec<String> {
     let kinds = [
         "m", "hx", "hy", "hz", "jxx", "jxy", "jyy", "jxz", "jyz", "jzz",
     ];
-    let systems = model.systems.iter();
+    let systems = known.scene.model.systems.iter();
     let elements = systems.flat_map(|system| {
         let elements = system.elements.iter();
         elements.map(move |element| format!("{}/{}", system.name, element.name))
@@ -233,16 +267,16 @@ fn inertial_parameters(model: &Model, _: &Layout) -> Vec<String> {
         .collect()
 }
 
-fn axes(_: &Model, _: &Layout) -> Vec<String> {
+fn axes(_: &Known<'_, '_>) -> Vec<String> {
     ["x", "y", "z"].map(String::from).into()
 }
 
-fn motion(_: &Model, _: &Layout) -> Vec<String> {
+fn motion(_: &Known<'_, '_>) -> Vec<String> {
     let names = ["x", "y", "z", "about_x", "about_y", "about_z"];
     names.map(String::from).into()
 }
 
-fn rotation_and_origin(_: &Model, _: &Layout) -> Vec<String> {
+fn rotation_and_origin(_: &Known<'_, '_>) -> Vec<String> {
     ["x_axis", "y_axis", "z_axis", "origin"]
         .map(String::from)
         .into()
@@ -251,6 +285,7 @@ fn rotation_and_origin(_: &Model, _: &Layout) -> Vec<String> {
 /// What functions are derived from.
 pub(super) struct Known<'g, 'a> {
     scene: &'a Scene<'g, 'a>,
+    state: &'a State<'g>,
     systems: &'a [Spatial<'g, 'a>],
     /// S, r_s and r_k if they are derived already.
     derived: Option<&'a Matrices<'g>>,
@@ -262,12 +297,14 @@ pub(super) struct Known<'g, 'a> {
 impl<'g, 'a> Known<'g, 'a> {
     pub fn new(
         scene: &'a Scene<'g, 'a>,
+        state: &'a State<'g>,
         systems: &'a [Spatial<'g, 'a>],
         derived: Option<&'a Matrices<'g>>,
     ) -> Self {
         let symbol = |i: usize| scene.graph.symbol(Symbol::Acceleration(i as u32));
         Known {
             scene,
+            state,
             systems,
             derived,
             own: OnceCell::new(),
@@ -275,27 +312,37 @@ impl<'g, 'a> Known<'g, 'a> {
         }
     }
 
-    /// The functions that are asked for.
-    pub fn functions(&self, requests: &[Request]) -> Vec<equations::Function> {
-        let Scene { model, layout, .. } = *self.scene;
-        let function = |request: &Request| {
-            let function = request.function();
-            self.scene.graph.section(request.name().to_owned());
+    /// The functions that are asked for, and those of them that this model cannot have.
+    pub fn functions(
+        &self,
+        requests: &[Request],
+    ) -> (Vec<equations::Function>, Vec<equations::Impossible>) {
+        let (mut functions, mut impossible) = (Vec::new(), Vec::new());
+        for request in requests {
+            let (function, name) = (request.function(), request.name().to_owned());
+            self.scene.graph.section(name.clone());
             let values = match (&function.derive, request.frame()) {
-                (OfScene(derive), _) => derive(self),
-                (OfFrame(derive), Some(frame)) => derive(self, frame),
+                (OfScene(derive), _) => Ok(derive(self)),
+                (OfSmoothScene(derive), _) => derive(self),
+                (OfFrame(derive), Some(frame)) => Ok(derive(self, frame)),
                 (OfFrame(_), None) => unreachable!("a request has the argument of its function"),
             };
-            equations::Function {
-                name: request.name().to_owned(),
-                sentence: function.sentence,
-                arguments: function.arguments,
-                rows: (function.rows)(model, layout),
-                columns: (function.columns)(model, layout),
-                values: values.iter().map(|value| value.id()).collect(),
+            match values {
+                Ok(values) => functions.push(equations::Function {
+                    name,
+                    sentence: function.sentence,
+                    arguments: function.arguments,
+                    rows: (function.rows)(self),
+                    columns: (function.columns)(self),
+                    values: values.iter().map(|value| value.id()).collect(),
+                }),
+                Err(NotDifferentiable { what, .. }) => impossible.push(equations::Impossible {
+                    function: name,
+                    what,
+                }),
             }
-        };
-        requests.iter().map(function).collect()
+        }
+        (functions, impossible)
     }
 
     fn size(&self) -> usize {
