@@ -6,7 +6,7 @@
 mod lanes;
 
 use crate::model::{Engine, Evaluated};
-use bryant_generator::program::Method;
+use bryant_generator::program::{Function, Method};
 use bryant_runtime::real::lanes::with_width;
 use bryant_runtime::{Adjustable, Dynamics, Info, Refusal, Section, Width};
 use lanes::{Lanes, Make};
@@ -24,6 +24,8 @@ pub struct Rows<'a> {
     /// z and m: as many as [`Info::auxiliaries`] and [`Info::memory`] for each row. If empty, each row has those with
     /// which a run starts.
     pub states: &'a [f64],
+    /// a: accelerations that functions need, as many as [`Info::velocities`] for each row. If empty, they are 0.
+    pub accelerations: &'a [f64],
     /// The varying parameters \[SI\], as many as [`Batch::vary`] names for each row. If empty, each row has the values of
     /// [`Batch::set_parameters`].
     pub inputs: &'a [f64],
@@ -38,6 +40,8 @@ pub enum Wanted {
     Accelerations,
     /// A section.
     Section(Section),
+    /// A [function](Engine::functions) that was asked for when the engine was made, by its index.
+    Function(usize),
     /// S, all of its entries, by rows. The engine must have been made with matrices.
     MassMatrix,
     /// r_s. The engine must have been made with matrices.
@@ -129,6 +133,8 @@ pub struct Batch {
     parameters: Vec<f64>,
     /// Whether the engine has S, r_s and r_k.
     matrices: bool,
+    /// The number of results of each function.
+    functions: Vec<usize>,
     /// Whether values of the varying parameters may break a condition of the model.
     conditional: bool,
     /// The model over one number, which checks conditions.
@@ -186,6 +192,7 @@ impl Engine {
             varying: Vec::new(),
             parameters: info.parameters.iter().map(|of| of.default).collect(),
             matrices: !self.lists().list(Method::MassMatrix).results.is_empty(),
+            functions: lengths(self.functions()),
             conditional: false,
             checks: self.over(),
             workers: (0..threads.max(1)).map(worker).collect(),
@@ -260,12 +267,16 @@ impl Batch {
     }
 
     /// The number of results for each row.
+    ///
+    /// # Panics
+    /// If there is no function of this index.
     pub fn length(&self, wanted: Wanted) -> usize {
         let freedoms = self.info.velocities.len();
         match wanted {
             Wanted::Rates => self.info.state_length(),
             Wanted::MassMatrix => freedoms * freedoms,
             Wanted::Section(section) => self.info.length(section),
+            Wanted::Function(index) => self.functions[index],
             _ => freedoms,
         }
     }
@@ -274,6 +285,9 @@ impl Batch {
     ///
     /// # Errors
     /// If the slices do not fit, or if parameters of a row are refused.
+    ///
+    /// # Panics
+    /// If there is no function of this index.
     pub fn evaluate(
         &mut self,
         wanted: Wanted,
@@ -359,6 +373,10 @@ impl Batch {
             rows.coordinates.len(),
             count * info.coordinates.len(),
         )?;
+        if !rows.accelerations.is_empty() {
+            let needed = rows.velocities.len();
+            fits("accelerations", rows.accelerations.len(), needed)?;
+        }
         if !rows.states.is_empty() {
             let length = info.auxiliaries.len() + info.memory.len();
             fits("states", rows.states.len(), count * length)?;
@@ -433,6 +451,11 @@ impl Batch {
             }
         });
     }
+}
+
+/// The number of results of each function.
+fn lengths(functions: &[Function]) -> Vec<usize> {
+    functions.iter().map(|of| of.list.results.len()).collect()
 }
 
 /// What a thread does with its rows.

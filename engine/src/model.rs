@@ -331,6 +331,11 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         )
     }
 
+    /// The number of results of a function.
+    pub(crate) fn function_length(&self, index: usize) -> usize {
+        self.shared.lists.functions[index].list.results.len()
+    }
+
     /// The values of a [function](Engine::functions) at a time, a state and accelerations: a matrix by rows. The
     /// accelerations are as many as there are velocities; they are not read if the function does not need them.
     ///

@@ -47,6 +47,7 @@ impl OfAnyWidth for Make<'_> {
                 .max()
                 .unwrap_or(0),
         ];
+        let functions = super::lengths(self.0.functions());
         let length = info.state_length();
         let mut start = zeros(length);
         model.initial_state(&mut start);
@@ -56,7 +57,8 @@ impl OfAnyWidth for Make<'_> {
             stage: zeros(length),
             sum: zeros(length),
             before: zeros(length),
-            results: zeros(most.into_iter().max().unwrap_or(0)),
+            results: zeros(most.into_iter().chain(functions).max().unwrap_or(0)),
+            accelerations: zeros(info.velocities.len()),
             values: Vec::new(),
             at_end: Vec::new(),
             defaults: Vec::new(),
@@ -79,6 +81,8 @@ struct Held<T: Real> {
     sum: Vec<T>,
     before: Vec<T>,
     results: Vec<T>,
+    /// Given accelerations.
+    accelerations: Vec<T>,
     varying: Vec<usize>,
     /// The values of the varying parameters at the beginning of a step, and at its end; those of the batch.
     values: Vec<T>,
@@ -209,12 +213,14 @@ impl<T: Several<One = f64>> Held<T> {
         let info = self.model.info();
         let [q, v] = [info.coordinates.len(), info.velocities.len()];
         self.y.copy_from_slice(&self.start);
+        self.accelerations.fill(T::from_f64(0.0));
         let (coordinates, rest) = self.y.split_at_mut(q);
         let (velocities, states) = rest.split_at_mut(v);
         for (rows, stride, into) in [
             (rows.coordinates, q, coordinates),
             (rows.velocities, v, velocities),
             (rows.states, states.len(), states),
+            (rows.accelerations, v, &mut self.accelerations),
         ] {
             if !rows.is_empty() {
                 T::dispatch(Load {
@@ -252,7 +258,7 @@ impl<T: Several<One = f64>> Held<T> {
         let info = self.model.info();
         let [q, v] = [info.coordinates.len(), info.velocities.len()];
         let (model, y, results) = (&self.model, &self.y, &mut self.results);
-        let mut found = |method, length| model.evaluate(method, time, y, &mut results[..length]);
+        let by = |method, results: &mut [T]| model.evaluate(method, time, y, results);
         match wanted {
             Wanted::Rates | Wanted::Accelerations => {
                 let length = info.state_length();
@@ -267,18 +273,22 @@ impl<T: Several<One = f64>> Held<T> {
                 model.section(section, time, y, &mut results[..length]);
                 0..length
             }
+            Wanted::Function(index) => {
+                model.function(index, time, y, &self.accelerations, results);
+                0..model.function_length(index)
+            }
             Wanted::MassMatrix => {
                 let half = v * (v + 1) / 2;
-                found(Method::MassMatrix, half);
+                by(Method::MassMatrix, &mut results[..half]);
                 spread(v, results);
                 0..v * v
             }
             Wanted::VelocityForces => {
-                found(Method::VelocityForces, v);
+                by(Method::VelocityForces, &mut results[..v]);
                 0..v
             }
             Wanted::AppliedForces => {
-                found(Method::AppliedForces, v);
+                by(Method::AppliedForces, &mut results[..v]);
                 0..v
             }
         }
