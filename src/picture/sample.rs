@@ -21,6 +21,7 @@ fn element(name: &str, parent: Option<usize>, at: [f64; 2], mass: f64, cg: [f64;
         axes: vector(0.0, 0.0, 0.0),
         angles: vector(0.0, 0.0, 0.0),
         angular_velocity: vector(0.0, 0.0, 0.0),
+        points: Vec::new(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Options;
 use super::robot::{Joint, Kind, Limits, Mesh, Mimic, Place, Robot};
-use super::tree::{Carried, Element, Forest, Freedom, Marker};
+use super::tree::{Carried, Element, Forest, Freedom};
 use crate::model::Triangles;
 use crate::rotation::{Matrix, Vector, add, apply, bryant_angles, length, product, subtract};
 use std::cell::RefCell;
@@ -463,19 +463,26 @@ impl Writer<'_> {
         writeln!(text, " }}")
     }
 
-    /// The links without mass that are fixed to an element, as points.
+    /// The links that are parts of an element, as points: those without mass that are fixed to it, and those that are not
+    /// a body by themselves.
     fn points(&self, element: &Element) -> Vec<String> {
         let systems = &self.forest.systems;
         let is_here = |(s, e): (usize, usize)| systems[s].elements[e].link == element.link;
         let markers = self.forest.markers.iter();
         let here = markers.filter(|marker| marker.on.is_some_and(is_here));
-        let text = |marker: &Marker| {
-            let name = &self.links.given[marker.link];
-            let placed = &self.forest.placed[marker.link];
+        let merged = self.forest.merged.iter();
+        let merged = merged.filter(|(main, _)| *main == element.link);
+        let merged = merged.flat_map(|(_, others)| others.iter().copied());
+        let text = |link: usize| {
+            let name = &self.links.given[link];
+            let placed = &self.forest.placed[link];
             let frame = frame(placed.at, &placed.turn, element.origin);
             format!("{{ name: {name}{frame} }}")
         };
-        here.map(text).collect()
+        here.map(|marker| marker.link)
+            .chain(merged)
+            .map(text)
+            .collect()
     }
 
     /// The meshes of all links of an element, which has the name of this link, or of all links at rest, each with its link.

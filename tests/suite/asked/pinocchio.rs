@@ -13,6 +13,14 @@ const ROUNDING: f64 = 1e-12;
 fn robots_agree_with_pinocchio() {
     let text = read("robots.json");
     let all: Value = serde_json::from_str(&text).expect("JSON");
+    // a link that is not a body by itself is a part of another, and a frame all the same
+    let elements = &robot_model("anymal", true).systems[0].elements;
+    let points: Vec<_> = elements[0]
+        .points
+        .iter()
+        .map(|point| &*point.name)
+        .collect();
+    assert_eq!(points, ["base", "imu_link"]);
     for (name, robot) in all["robots"].as_object().expect("robots") {
         let model = robot_model(name, robot["free"] == true);
         let frame = robot["frame"].as_str().expect("a frame").to_lowercase();

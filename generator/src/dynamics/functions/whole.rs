@@ -7,13 +7,13 @@
 
 use super::Known;
 use super::frame::{both, by_rows};
-use crate::dynamics::augmented::{own_inertia, rotated};
+use crate::dynamics::augmented::{rotated, with_points};
 use crate::dynamics::energy;
 use crate::dynamics::outputs::Scene;
 use crate::dynamics::spatial::Spatial;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, sum};
-use crate::model::{Element, ElementId};
+use crate::model::{Element, ElementId, Joint};
 use crate::motion::numbers::{number, vector};
 
 pub fn kinetic_energy<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
@@ -34,23 +34,33 @@ pub fn center_of_mass<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
     center_of_all(known.scene).0.into()
 }
 
-/// Σ m v and Σ ((r − c) × m v + I ω)
+/// p = Σ m v + ω × h, and of l = p_k × p + h × v + J ω about the origin what is left about the centre of mass. v and J are
+/// those of the origins p_k of bodies.
 pub fn centroidal_momentum<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
     let scene = known.scene;
     let (graph, all) = (scene.graph, center_of_all(scene));
     let (mut linear, mut angular) = (Vec3::zero(graph), Vec3::zero(graph));
-    for (id, element) in elements(scene) {
-        let motion = scene.motion.element(id);
-        let offset = motion.rotation.times(vector(graph, &element.cg));
-        let momentum = number(graph, &element.mass) * motion.velocity_at(offset);
-        let inertia = own_inertia(graph, scene.model.dimension, element);
-        let inertia = rotated(graph, &motion.rotation, &inertia);
-        linear = linear + momentum;
-        angular = angular
-            + (motion.position + offset - all).cross(momentum)
-            + inertia.times(motion.omega);
+    for (s, _) in scene.model.systems.iter().enumerate() {
+        for (motion, body) in scene.motion.systems[s].iter().zip(bodies(scene, s)) {
+            let Some(Rigid {
+                mass,
+                first,
+                inertia,
+            }) = body
+            else {
+                continue;
+            };
+            let first = motion.rotation.times(first);
+            let momentum = mass * motion.velocity + motion.omega.cross(first);
+            let spin = inertia.times(motion.rotation.transposed_times(motion.omega));
+            angular = angular
+                + motion.position.cross(momentum)
+                + first.cross(motion.velocity)
+                + motion.rotation.times(spin);
+            linear = linear + momentum;
+        }
     }
-    both(linear, angular)
+    both(linear, angular - all.cross(linear))
 }
 
 pub fn centroidal_matrix<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
@@ -58,7 +68,7 @@ pub fn centroidal_matrix<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
     let (none, all) = (Vec3::zero(graph), center_of_all(known.scene));
     let mut columns = vec![[none; 2]; known.size()];
     for spatial in known.systems {
-        let composites = composites(spatial);
+        let composites = composites(known.scene, spatial);
         for (k, composite) in composites.iter().enumerate() {
             let arm = spatial.motion_of(k).position - all;
             for column in spatial.columns(k) {
@@ -103,15 +113,25 @@ struct Composite<'g> {
     carried: Vec<(Vec3<'g>, Vec3<'g>)>,
 }
 
-fn composites<'g>(spatial: &Spatial<'g, '_>) -> Vec<Composite<'g>> {
-    let bodies = spatial.bodies().into_iter();
+fn composites<'g>(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Vec<Composite<'g>> {
+    let graph = scene.graph;
+    let zero = graph.constant(0.0);
+    let bodies = bodies(scene, spatial.system).into_iter().enumerate();
     let mut all: Vec<Composite<'g>> = bodies
-        .map(|body| Composite {
-            mass: body.mass,
-            first: body.first_moment,
-            turning: body.first_moment,
-            inertia: body.inertia,
-            carried: Vec::new(),
+        .map(|(k, body)| {
+            let rotation = &spatial.motion_of(k).rotation;
+            let first = body.as_ref().map(|body| rotation.times(body.first));
+            let first = first.unwrap_or_else(|| Vec3::zero(graph));
+            let inertia = body
+                .as_ref()
+                .map(|of| rotated(graph, rotation, &of.inertia));
+            Composite {
+                mass: body.map_or(zero, |body| body.mass),
+                first,
+                turning: first,
+                inertia: inertia.unwrap_or_else(|| Sym3::zero(graph)),
+                carried: Vec::new(),
+            }
         })
         .collect();
     for k in (1..all.len()).rev() {
@@ -172,10 +192,57 @@ fn center<'g>(scene: &Scene<'g, '_>, id: ElementId, element: &Element) -> Vec3<'
 fn center_of_all<'g>(scene: &Scene<'g, '_>) -> Vec3<'g> {
     let graph = scene.graph;
     let (mut mass, mut moment) = (graph.constant(0.0), Vec3::zero(graph));
-    for (id, element) in elements(scene) {
-        let own = number(graph, &element.mass);
-        mass = mass + own;
-        moment = moment + own * center(scene, id, element);
+    for (s, _) in scene.model.systems.iter().enumerate() {
+        for (motion, body) in scene.motion.systems[s].iter().zip(bodies(scene, s)) {
+            if let Some(body) = body {
+                let own = body.mass * motion.position + motion.rotation.times(body.first);
+                (mass, moment) = (mass + body.mass, moment + own);
+            }
+        }
     }
     mass.recip() * moment
+}
+
+/// A rigid body: m, h and J about the origin of its element, in its axes.
+struct Rigid<'g> {
+    mass: Expr<'g>,
+    first: Vec3<'g>,
+    inertia: Sym3<'g>,
+}
+
+/// The body of each element of a system, with all that is welded to it; `None` for what is welded to another.
+fn bodies<'g>(scene: &Scene<'g, '_>, system: usize) -> Vec<Option<Rigid<'g>>> {
+    let Scene { graph, model, .. } = *scene;
+    let elements = &model.systems[system].elements;
+    let none = Vec3::zero(graph);
+    let mut bodies: Vec<Option<Rigid<'g>>> = Vec::new();
+    // for each element the one that it is welded to, itself if it is not, and its place there
+    let mut seats: Vec<(usize, Vec3<'g>)> = Vec::new();
+    for (k, element) in elements.iter().enumerate() {
+        let is_welded = element.joint != Joint::Ball && element.joint.freedoms().is_empty();
+        let (seat, at) = match element.parent.filter(|_| is_welded) {
+            Some(parent) => (
+                seats[parent].0,
+                seats[parent].1 + vector(graph, &element.at),
+            ),
+            None => (k, none),
+        };
+        let (mass, first, inertia) = with_points(graph, model.dimension, element, none, &[]);
+        let own = Rigid {
+            mass,
+            first: first + mass * at,
+            inertia: inertia + moved(first, mass, at),
+        };
+        bodies.push(None);
+        bodies[seat] = Some(match bodies[seat].take() {
+            None => own,
+            Some(body) => Rigid {
+                mass: body.mass + own.mass,
+                first: body.first + own.first,
+                inertia: body.inertia + own.inertia,
+            },
+        });
+        seats.push((seat, at));
+    }
+    bodies
 }
