@@ -4,12 +4,13 @@ use crate::arrays::{Array, Filled};
 use crate::wrong;
 use bryant_engine::Engine;
 use bryant_engine::batch::{Batch, Hold, Rollout, Rows, Wanted};
-use bryant_generator::Config;
+use bryant_generator::{Config, model};
 use bryant_runtime::{Info, Section};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use std::collections::HashMap;
 use std::path::Path;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Number of rows from which other threads of Python may run meanwhile. For fewer, waiting for them would take longer than
 /// the rows do.
@@ -18,11 +19,56 @@ const MANY: usize = 8;
 /// The equations of a model as machine code.
 #[pyclass(frozen, subclass)]
 pub struct Model {
-    engine: Engine,
+    model: model::Model,
+    pool: Pool,
+    /// The functions that were asked for, by name, each derived when it was asked for first.
+    functions: Mutex<HashMap<String, Arc<Pool>>>,
     /// The values of all parameters [SI].
     parameters: Mutex<Vec<f64>>,
+}
+
+/// An engine, with room for calls.
+struct Pool {
+    engine: Engine,
     /// Models that no thread uses now, each with its number of threads. Calls on several threads of Python take one each.
     idle: Mutex<Vec<(usize, Batch)>>,
+}
+
+impl Pool {
+    fn new(engine: Engine) -> Self {
+        Pool {
+            engine,
+            idle: Mutex::default(),
+        }
+    }
+
+    /// A batch for so many threads, with these parameters, which were accepted before.
+    fn take(&self, threads: usize, parameters: &Mutex<Vec<f64>>) -> Batch {
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        match idle.iter().position(|(of, _)| *of == threads) {
+            Some(found) => idle.swap_remove(found).1,
+            None => {
+                drop(idle);
+                let mut batch = self.engine.batch(threads);
+                let values = parameters.lock().unwrap_or_else(PoisonError::into_inner);
+                let _ = batch.set_parameters(&values);
+                batch
+            }
+        }
+    }
+
+    fn put_back(&self, threads: usize, batch: Batch) {
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        idle.push((threads, batch));
+    }
+
+    /// Drops models that have other parameters.
+    fn forget(&self) {
+        self.idle
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clear();
+    }
 }
 
 /// A name, a unit, a default, the limits, and whether it is an input.
@@ -42,31 +88,32 @@ impl Model {
             let parameters = engine.info().parameters.iter().map(|of| of.default);
             Ok(Model {
                 parameters: Mutex::new(parameters.collect()),
-                idle: Mutex::default(),
-                engine,
+                functions: Mutex::default(),
+                pool: Pool::new(engine),
+                model,
             })
         })
     }
 
     #[getter]
     fn name(&self) -> &'static str {
-        self.engine.info().name
+        self.pool.engine.info().name
     }
 
     #[getter]
     fn digest(&self) -> &'static str {
-        self.engine.info().digest
+        self.pool.engine.info().digest
     }
 
     #[getter]
     fn arithmetic(&self) -> &'static str {
-        self.engine.arithmetic()
+        self.pool.engine.arithmetic()
     }
 
     /// Names and units of q, v, z and m.
     #[getter]
     fn state(&self) -> [Vec<(&'static str, &'static str)>; 4] {
-        let info = self.engine.info();
+        let info = self.pool.engine.info();
         let mut from = 0;
         [
             info.coordinates,
@@ -83,13 +130,13 @@ impl Model {
 
     #[getter]
     fn outputs_named(&self) -> Vec<(&'static str, &'static str)> {
-        let outputs = self.engine.info().outputs.iter();
+        let outputs = self.pool.engine.info().outputs.iter();
         outputs.map(|of| (of.name, of.unit)).collect()
     }
 
     #[getter]
     fn parameters_named(&self) -> Vec<Parameter> {
-        let parameters = self.engine.info().parameters.iter();
+        let parameters = self.pool.engine.info().parameters.iter();
         let facts = parameters.map(|of| (of.name, of.unit, of.default, of.min, of.max, of.input));
         facts.collect()
     }
@@ -103,25 +150,22 @@ impl Model {
     /// Sets all parameters [SI].
     #[setter]
     fn set_values(&self, values: Vec<f64>) -> PyResult<()> {
-        let mut batch = self.take(1);
-        let set = batch.set_parameters(&values).map_err(wrong);
-        if set.is_ok() {
-            *self.present() = values;
-            // the others have the old values
-            self.idle
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .clear();
-        }
-        self.put_back(1, batch);
-        set
+        let mut batch = self.pool.take(1, &self.parameters);
+        batch.set_parameters(&values).map_err(wrong)?;
+        *self.present() = values;
+        self.pool.forget();
+        let functions = self.functions.lock().unwrap_or_else(PoisonError::into_inner);
+        functions.values().for_each(|pool| pool.forget());
+        drop(functions);
+        self.pool.put_back(1, batch);
+        Ok(())
     }
 
     /// q, v, z and m with which a run begins.
     fn begin(&self) -> [Vec<f64>; 4] {
-        let mut model = self.engine.in_double();
+        let mut model = self.pool.engine.in_double();
         model.set_parameters(&self.present());
-        let info = self.engine.info();
+        let info = self.pool.engine.info();
         let mut y = vec![0.0; info.state_length()];
         model.initial_state(&mut y);
         let mut rest = &y[..];
@@ -156,11 +200,12 @@ impl Model {
         threads: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
         let what = "accelerations";
-        self.evaluate(py, what, q, Some(v), u, states, t, vary, out, threads)
+        self.evaluate(py, what, q, Some(v), u, states, t, vary, out, threads, None)
     }
 
-    /// Evaluates `what` at rows of states: see `accelerations`.
-    #[pyo3(signature = (what, q, v, u=None, states=None, t=0.0, vary=None, out=None, threads=1))]
+    /// Evaluates `what` at rows of states: see `accelerations`. `what` is a section, or a function that is derived when it
+    /// is asked for first; a: accelerations that functions need.
+    #[pyo3(signature = (what, q, v, u=None, states=None, t=0.0, vary=None, out=None, threads=1, a=None))]
     #[expect(clippy::too_many_arguments, reason = "those of a function of Python")]
     fn evaluate<'py>(
         &self,
@@ -174,22 +219,36 @@ impl Model {
         vary: Option<Vec<String>>,
         out: Option<&Bound<'py, PyAny>>,
         threads: usize,
+        a: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let wanted = wanted(what)?;
-        let info = self.engine.info();
-        let given = Given::of(info, q, v, u, states)?;
+        let asked = match wanted(what) {
+            Some(wanted) => (None, wanted),
+            None => (Some(self.asked(py, what)?), Wanted::Function(0)),
+        };
+        let (pool, wanted) = (asked.0.as_deref().unwrap_or(&self.pool), asked.1);
+        let info = pool.engine.info();
+        let given = Given::of(info, q, v, u, states, a)?;
         let vary = vary.map(|names| self.indices(&names)).transpose()?;
-        let mut batch = self.take(threads);
+        let mut batch = pool.take(threads, &self.parameters);
         if let Some(vary) = &vary {
             batch.vary(vary);
         }
-        let length = batch.length(wanted);
-        let (matrix, freedoms) = (wanted == Wanted::MassMatrix, info.velocities.len());
-        let mut shape = given.leading.to_vec();
-        match (matrix, wanted) {
-            (true, _) => shape.extend([freedoms, freedoms]),
-            (_, Wanted::Section(Section::KineticEnergy)) => {}
-            _ => shape.push(length),
+        let freedoms = info.velocities.len();
+        let mut shape = given.leading.clone();
+        match wanted {
+            Wanted::MassMatrix => shape.extend([freedoms, freedoms]),
+            Wanted::Section(Section::KineticEnergy) => {}
+            Wanted::Function(index) => {
+                let function = &pool.engine.functions()[index];
+                let sides = [function.rows.len(), function.columns.len()];
+                // a column, and a single number, have no second dimension
+                shape.extend(match sides {
+                    [1, 1] => &sides[..0],
+                    [_, 1] => &sides[..1],
+                    _ => &sides[..],
+                });
+            }
+            _ => shape.push(batch.length(wanted)),
         }
         // one number is that of an array of one
         let alone = shape.is_empty();
@@ -204,13 +263,20 @@ impl Model {
             false => work(),
         };
         if vary.is_none() {
-            self.put_back(threads, batch);
+            pool.put_back(threads, batch);
         }
         done.map_err(wrong)?;
         match alone {
             true => filled.array.get_item(0),
             false => Ok(filled.array),
         }
+    }
+
+    /// The names of the rows and columns of a function.
+    fn names_of(&self, py: Python<'_>, what: &str) -> PyResult<(Vec<String>, Vec<String>)> {
+        let asked = self.asked(py, what)?;
+        let function = &asked.engine.functions()[0];
+        Ok((function.rows.clone(), function.columns.clone()))
     }
 
     /// Takes `steps` steps from rows of states. Returns the states after each step, or its outputs.
@@ -238,8 +304,8 @@ impl Model {
                 "dt must be positive and finite, and parts at least 1",
             ));
         }
-        let info = self.engine.info();
-        let given = Given::of(info, q, Some(v), u, states)?;
+        let info = self.pool.engine.info();
+        let given = Given::of(info, q, Some(v), u, states, None)?;
         let rollout = Rollout {
             step: dt,
             steps,
@@ -258,13 +324,13 @@ impl Model {
             false => (results, &mut [][..]),
         };
         let vary = vary.map(|names| self.indices(&names)).transpose()?;
-        let mut batch = self.take(threads);
+        let mut batch = self.pool.take(threads, &self.parameters);
         if let Some(vary) = &vary {
             batch.vary(vary);
         }
         let done = py.detach(|| batch.rollout(&rollout, &given.rows(t), to_states, to_outputs));
         if vary.is_none() {
-            self.put_back(threads, batch);
+            self.pool.put_back(threads, batch);
         }
         done.map_err(wrong)?;
         Ok(filled.array)
@@ -273,7 +339,7 @@ impl Model {
 
 impl Model {
     pub fn engine(&self) -> &Engine {
-        &self.engine
+        &self.pool.engine
     }
 
     pub fn present(&self) -> std::sync::MutexGuard<'_, Vec<f64>> {
@@ -284,7 +350,7 @@ impl Model {
 
     /// Indices of parameters.
     fn indices(&self, names: &[String]) -> PyResult<Vec<usize>> {
-        let parameters = self.engine.info().parameters;
+        let parameters = self.pool.engine.info().parameters;
         let place = |name: &String| {
             let found = parameters.iter().position(|of| of.name == name);
             found.ok_or_else(|| {
@@ -298,24 +364,21 @@ impl Model {
         names.iter().map(place).collect()
     }
 
-    /// A batch for so many threads.
-    fn take(&self, threads: usize) -> Batch {
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        match idle.iter().position(|(of, _)| *of == threads) {
-            Some(found) => idle.swap_remove(found).1,
-            None => {
-                drop(idle);
-                let mut batch = self.engine.batch(threads);
-                // they were accepted before
-                let _ = batch.set_parameters(&self.present());
-                batch
-            }
+    /// The engine of a function, which is derived when it is asked for first.
+    fn asked(&self, py: Python<'_>, what: &str) -> PyResult<Arc<Pool>> {
+        let functions = || self.functions.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = functions().get(what) {
+            return Ok(found.clone());
         }
-    }
-
-    fn put_back(&self, threads: usize, batch: Batch) {
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        idle.push((threads, batch));
+        let derived = py.detach(|| {
+            let mut config = Config::new();
+            config.matrices(false).functions([what]);
+            config.requests(&self.model, &self.model.name).map_err(wrong)?;
+            let engine = Engine::of(&self.model, &config).map_err(wrong)?;
+            PyResult::Ok(Arc::new(Pool::new(engine)))
+        })?;
+        functions().insert(what.to_owned(), derived.clone());
+        Ok(derived)
     }
 }
 
@@ -325,6 +388,7 @@ struct Given {
     v: Option<Array>,
     u: Option<Array>,
     states: Option<Array>,
+    a: Option<Array>,
     /// v where it was not given.
     zeros: Vec<f64>,
     /// The dimensions before the last one: none for one state, one for several.
@@ -339,6 +403,7 @@ impl Given {
         v: Option<&Bound<'_, PyAny>>,
         u: Option<&Bound<'_, PyAny>>,
         states: Option<&Bound<'_, PyAny>>,
+        a: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let (q, v) = (Array::of(q)?, v.map(Array::of).transpose()?);
         let leading = match q.shape() {
@@ -372,6 +437,7 @@ impl Given {
             v,
             u: u.map(Array::of).transpose()?,
             states: states.map(Array::of).transpose()?,
+            a: a.map(Array::of).transpose()?,
             leading,
             count,
         })
@@ -383,22 +449,25 @@ impl Given {
             coordinates: self.q.numbers(),
             velocities: self.v.as_ref().map_or(&self.zeros, Array::numbers),
             states: self.states.as_ref().map_or(&[], Array::numbers),
+            accelerations: self.a.as_ref().map_or(&[], Array::numbers),
             inputs: self.u.as_ref().map_or(&[], Array::numbers),
         }
     }
 }
 
-fn wanted(what: &str) -> PyResult<Wanted> {
-    Ok(match what {
+/// What every model has, by name; `None` for a function.
+fn wanted(what: &str) -> Option<Wanted> {
+    Some(match what {
         "accelerations" => Wanted::Accelerations,
         "rates" => Wanted::Rates,
         "mass_matrix" => Wanted::MassMatrix,
         "velocity_forces" => Wanted::VelocityForces,
         "applied_forces" => Wanted::AppliedForces,
         _ => {
-            let section = Section::ALL.iter().find(|section| section.name() == what);
-            let unknown = || PyValueError::new_err(format!("there is no {what}"));
-            Wanted::Section(*section.ok_or_else(unknown)?)
+            let mut sections = Section::ALL.iter();
+            return sections
+                .find(|section| section.name() == what)
+                .map(|section| Wanted::Section(*section));
         }
     })
 }

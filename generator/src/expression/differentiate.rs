@@ -149,6 +149,10 @@ fn by_side<'g>(
             let power = graph.call(Function::Power, &[e(base), less]);
             Some(e(exponent) * power * d(base))
         }
+        Node::Call(Function::Power, [base, exponent, _]) => match e(base).as_constant() {
+            Some(number) if number > 0.0 => Some(libm::log(number) * e(id) * d(exponent)),
+            _ => None,
+        },
         _ => None,
     }
 }
@@ -361,6 +365,7 @@ mod tests {
             x.min(2.0 * y),
             graph.call(Function::Choose, &[x, y, x * y, 3.0 * x]),
             graph.call(Function::Power, &[x, graph.constant(2.5)]),
+            graph.call(Function::Power, &[graph.constant(2.0), x]),
             x * given,
         ]
         .map(|root| root.id());
@@ -389,8 +394,9 @@ mod tests {
             };
             evaluate(&graph, &found, &inputs, &call)
         };
-        assert_eq!(at(4.0, 1.0), [1.0, 0.0, 3.0, 20.0, 17.0 + 28.0]);
-        assert_eq!(at(4.0, 5.0), [0.0, 1.0, 5.0, 20.0, 21.0 + 140.0]);
+        let power = 16.0 * std::f64::consts::LN_2;
+        assert_eq!(at(4.0, 1.0), [1.0, 0.0, 3.0, 20.0, power, 17.0 + 28.0]);
+        assert_eq!(at(4.0, 5.0), [0.0, 1.0, 5.0, 20.0, power, 21.0 + 140.0]);
         let exponent = graph.call(Function::Power, &[y, x]).id();
         assert!(differentiate_almost_everywhere(&graph, &[exponent], &known, direction).is_err());
     }

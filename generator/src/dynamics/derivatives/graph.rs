@@ -10,12 +10,12 @@ use crate::force::Wrenches;
 use std::ops::Range;
 use std::slice::from_ref;
 
-/// S and r_s + r_f of a system, by rows and columns of the system.
+/// S and r_s + r_f of a system.
 pub struct Terms<'g> {
     rows: Range<usize>,
-    /// S
-    matrix: Vec<Vec<Expr<'g>>>,
-    /// r_s + r_f
+    /// The entries of the upper triangle of S that are not 0, each with its row and column of v.
+    matrix: Vec<(usize, usize, Expr<'g>)>,
+    /// r_s + r_f, by row of the system
     forces: Vec<Expr<'g>>,
 }
 
@@ -38,13 +38,13 @@ impl<'g> Terms<'g> {
         fields.fields.clone_from(&scene.applied.wrenches.fields);
         let fields = forces(spatial.model, fields);
         let r_f = applied_forces::applied_forces(system, &fields, zero, size);
-        let row = |i: usize| {
-            rows.clone()
-                .map(|j| entries[i][j].unwrap_or(zero))
-                .collect()
-        };
+        let places = rows
+            .clone()
+            .flat_map(|i| (i..rows.end).map(move |j| (i, j)));
         Terms {
-            matrix: rows.clone().map(row).collect(),
+            matrix: places
+                .filter_map(|(i, j)| Some((i, j, entries[i][j]?)))
+                .collect(),
             forces: rows.clone().map(|i| r_s[i] + r_f[i]).collect(),
             rows,
         }
@@ -55,30 +55,22 @@ impl<'g> Terms<'g> {
         self.rows.is_empty()
     }
 
-    /// r_s + r_f, then the upper triangle of S.
+    /// r_s + r_f, then the entries of S.
     fn roots(&self) -> Vec<NodeId> {
-        let forces = self.forces.iter();
-        let upper = self
-            .matrix
-            .iter()
-            .enumerate()
-            .flat_map(|(i, row)| &row[i..]);
-        forces.chain(upper).map(|value| value.id()).collect()
+        let entries = self.matrix.iter().map(|(.., value)| value);
+        let values = self.forces.iter().chain(entries);
+        values.map(|value| value.id()).collect()
     }
 
     /// The terms with these values in place of their [roots](Self::roots).
     fn with(&self, values: impl IntoIterator<Item = Expr<'g>>) -> Self {
         let mut values = values.into_iter();
-        let forces: Vec<Expr<'g>> = values.by_ref().take(self.forces.len()).collect();
-        let mut matrix = self.matrix.clone();
-        let size = matrix.len();
-        let upper = (0..size).flat_map(|i| (i..size).map(move |j| (i, j)));
-        for ((i, j), value) in upper.zip(values) {
-            (matrix[i][j], matrix[j][i]) = (value, value);
-        }
+        let forces = values.by_ref().take(self.forces.len()).collect();
+        let entries = self.matrix.iter().zip(values);
+        let entries = entries.map(|(&(i, j, _), value)| (i, j, value));
         Terms {
             rows: self.rows.clone(),
-            matrix,
+            matrix: entries.filter(|(.., value)| !value.is_zero()).collect(),
             forces,
         }
     }
@@ -101,10 +93,14 @@ impl<'g> Terms<'g> {
     fn needed(&self, accelerations: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let zero = self.forces[0].graph().constant(0.0);
         let mut needed = vec![zero; accelerations.len()];
-        let own = &accelerations[self.rows.clone()];
-        for ((row, force), i) in self.matrix.iter().zip(&self.forces).zip(self.rows.clone()) {
-            let terms = row.iter().zip(own);
-            needed[i] = terms.fold(zero, |sum, (s, a)| sum + *s * *a) - *force;
+        for &(i, j, value) in &self.matrix {
+            needed[i] = needed[i] + value * accelerations[j];
+            if i != j {
+                needed[j] = needed[j] + value * accelerations[i];
+            }
+        }
+        for (i, force) in self.rows.clone().zip(&self.forces) {
+            needed[i] = needed[i] - *force;
         }
         needed
     }
@@ -132,11 +128,8 @@ impl<'g> InGraph<'g> {
             by_position: zeros(graph, size),
             by_velocity: zeros(graph, size),
         };
-        for (row, own) in found.matrix[rows.clone()]
-            .iter_mut()
-            .zip(&self.terms.matrix)
-        {
-            row[rows.clone()].copy_from_slice(own);
+        for &(i, j, value) in &self.terms.matrix {
+            (found.matrix[i][j], found.matrix[j][i]) = (value, value);
         }
         for (along, j) in self.along.iter().zip(rows) {
             let matrices = [&mut found.by_position, &mut found.by_velocity];
