@@ -136,6 +136,84 @@ class Model(_bryant.Model):
         """The kinetic energy [J]."""
         return self.evaluate("kinetic_energy", q, v, u, **options)
 
+    # -- functions of a robot: derived when they are asked for first, which takes milliseconds
+
+    def inverse_dynamics(self, q, v, a, u=None, **options):
+        """S a − r_s − r_g [N m, N]: what motors, springs and contacts have to provide together for the accelerations a."""
+        return self.evaluate("inverse_dynamics", q, v, u, a=a, **options)
+
+    def gravity_forces(self, q, u=None, **options):
+        """r_g [N m, N]: the generalised forces of all fields."""
+        return self.evaluate("gravity_forces", q, None, u, **options)
+
+    def pose(self, frame, q, u=None, **options):
+        """Rotation from the axes of the frame to those of the world, and beside it its origin [m]: (3, 4). A frame is an
+        element, a point with a name, or a link of a URDF: "tool0", "arm/hand"."""
+        return self.evaluate(f"pose({frame})", q, None, u, **options)
+
+    def velocity(self, frame, q, v, u=None, **options):
+        """The velocity of the frame's origin [m/s] and its angular velocity [rad/s], in axes of the world: (6,)."""
+        return self.evaluate(f"velocity({frame})", q, v, u, **options)
+
+    def acceleration(self, frame, q, v, a, u=None, **options):
+        """The acceleration of the frame's origin [m/s²] and its angular acceleration [rad/s²], for the accelerations a."""
+        return self.evaluate(f"acceleration({frame})", q, v, u, a=a, **options)
+
+    def jacobian(self, frame, q, u=None, **options):
+        """J: the velocity of the frame is J v, linear part first, in axes of the world: (6, n)."""
+        return self.evaluate(f"jacobian({frame})", q, None, u, **options)
+
+    def bias_acceleration(self, frame, q, v, u=None, **options):
+        """The rate of J times v: the acceleration of the frame where a is 0."""
+        return self.evaluate(f"bias_acceleration({frame})", q, v, u, **options)
+
+    def center_of_mass(self, q, u=None, **options):
+        """The centre of mass of all systems [m]."""
+        return self.evaluate("center_of_mass", q, None, u, **options)
+
+    def centroidal_momentum(self, q, v, u=None, **options):
+        """The linear momentum [N s], and the angular momentum about the centre of mass [N m s]."""
+        return self.evaluate("centroidal_momentum", q, v, u, **options)
+
+    def centroidal_matrix(self, q, u=None, **options):
+        """A: the centroidal momentum is A v: (6, n)."""
+        return self.evaluate("centroidal_matrix", q, None, u, **options)
+
+    def potential_energy(self, q, u=None, **options):
+        """The potential energy in all fields [J]; 0 for a mass at the origin."""
+        return self.evaluate("potential_energy", q, None, u, **options)
+
+    def regressor(self, q, v, a, u=None, **options):
+        """Y: inverse dynamics, but for armatures, is Y p, p being m, m c and J of each element: (n, 10 N)."""
+        return self.evaluate("regressor", q, v, u, a=a, **options)
+
+    def inverse_dynamics_derivatives(self, q, v, a, u=None, **options):
+        """∂τ/∂q and ∂τ/∂v, exact: (n, n) each. Columns by q are along the motion of each velocity: turns, for quaternions."""
+        both = self.evaluate("inverse_dynamics_derivatives", q, v, u, a=a, **options)
+        return np.split(both, 2, axis=-1)
+
+    def acceleration_derivatives(self, q, v, u=None, **options):
+        """v̇, ∂v̇/∂q, ∂v̇/∂v and S⁻¹, exact, with the forces of motors, springs and contacts constant."""
+        n = len(self.velocities)
+        all = self.evaluate("acceleration_derivatives", q, v, u, **options)
+        return (all[..., 0], *np.split(all[..., 1:], [n, 2 * n], axis=-1))
+
+    def linearise(self, q, v, u=None, *, dt=None, **options):
+        """A, B, C, D of the whole scene with its forces at a state, exact: δẋ = A δx + B δu, δy = C δx + D δu.
+
+        x has the positions along the motion of each velocity, the velocities, and the states of force laws; u the inputs;
+        y the outputs. With dt [s], A and B are those of a step with held inputs: δx⁺ = A δx + B δu.
+        """
+        all = self.evaluate("linearisation", q, v, u, **options)
+        x, m = all.shape[-2] - len(self.outputs_of), len(self.inputs)
+        a, b, c, d = all[..., :x, :x], all[..., :x, x:], all[..., x:, :x], all[..., x:, x:]
+        if dt is not None:
+            both = np.zeros((*a.shape[:-2], x + m, x + m))
+            both[..., :x, :x], both[..., :x, x:] = a, b
+            both = _exponential(dt * both)
+            a, b = both[..., :x, :x], both[..., :x, x:]
+        return a, b, c, d
+
     # -- motions
 
     def rollout(self, q, v, u=None, *, dt, steps=None, parts=1, linear=False, outputs=False, states=None, t=0.0, vary=None, out=None, threads=1):
@@ -210,6 +288,20 @@ class Model(_bryant.Model):
         }
         changed.update(new or {})
         return changed
+
+
+def _exponential(matrix):
+    """The exponential of matrices: squared as often as makes the rest of the series smaller than rounding."""
+    size = np.abs(matrix).sum(axis=-1).max()
+    squarings = max(0, int(np.ceil(np.log2(max(size, 1e-300)))) + 1)
+    matrix = matrix / 2.0**squarings
+    term = total = np.broadcast_to(np.eye(matrix.shape[-1]), matrix.shape)
+    for k in range(1, 19):
+        term = term @ matrix / k
+        total = total + term
+    for _ in range(squarings):
+        total = total @ total
+    return total
 
 
 class Simulation:

@@ -154,7 +154,10 @@ impl Model {
         batch.set_parameters(&values).map_err(wrong)?;
         *self.present() = values;
         self.pool.forget();
-        let functions = self.functions.lock().unwrap_or_else(PoisonError::into_inner);
+        let functions = self
+            .functions
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
         functions.values().for_each(|pool| pool.forget());
         drop(functions);
         self.pool.put_back(1, batch);
@@ -366,14 +369,20 @@ impl Model {
 
     /// The engine of a function, which is derived when it is asked for first.
     fn asked(&self, py: Python<'_>, what: &str) -> PyResult<Arc<Pool>> {
-        let functions = || self.functions.lock().unwrap_or_else(PoisonError::into_inner);
+        let functions = || {
+            self.functions
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+        };
         if let Some(found) = functions().get(what) {
             return Ok(found.clone());
         }
         let derived = py.detach(|| {
             let mut config = Config::new();
             config.matrices(false).functions([what]);
-            config.requests(&self.model, &self.model.name).map_err(wrong)?;
+            config
+                .requests(&self.model, &self.model.name)
+                .map_err(wrong)?;
             let engine = Engine::of(&self.model, &config).map_err(wrong)?;
             PyResult::Ok(Arc::new(Pool::new(engine)))
         })?;
