@@ -126,9 +126,7 @@ impl Arguments {
         model.normalize();
         let mut config = Config::new();
         config.functions(&self.functions);
-        config
-            .requests(&model, &self.model)
-            .map_err(|problems| Error::Input(problems.to_string()))?;
+        config.requests(&model, &self.model).map_err(Error::Model)?;
         let progress = Progress::deriving(terminal, &model.name);
         if self.rust {
             let text = config.source(&model);

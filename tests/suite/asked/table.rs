@@ -5,14 +5,14 @@ use bryant_generator::dynamics::{Options, derive_functions};
 use std::fmt::Write as _;
 use std::path::Path;
 
-const MARKS: [&str; 2] = ["<!-- functions: begin -->\n", "<!-- functions: end -->"];
+const HEAD: &str = "| function | takes | size | is |\n";
 
 #[test]
 fn the_page_has_all_functions() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let file = root.join("models/functions/machine.yaml");
     let (model, _) = bryant_generator::read(&file).expect("a model");
-    let mut table = String::from("| function | takes | size | is |\n|---|---|---|---|\n");
+    let mut table = format!("{HEAD}|---|---|---|---|\n");
     for function in FUNCTIONS {
         let (asked, shown) = match function.is_of_frame() {
             true => (
@@ -43,11 +43,12 @@ fn the_page_has_all_functions() {
     }
     let page = root.join("../docs/functions.md");
     let text = std::fs::read_to_string(&page).expect("a page");
-    let (before, rest) = text.split_once(MARKS[0]).expect("a mark");
-    let (is, after) = rest.split_once(MARKS[1]).expect("a mark");
+    let begin = text.find(HEAD).expect("a table");
+    let end = begin + text[begin..].find("\n\n").expect("an end") + 1;
+    let is = &text[begin..end];
     if is != table && std::env::var_os("PAGES_UPDATE").is_some() {
-        let [begin, end] = MARKS;
-        std::fs::write(&page, format!("{before}{begin}{table}{end}{after}")).expect("written");
+        let (before, after) = (&text[..begin], &text[end..]);
+        std::fs::write(&page, format!("{before}{table}{after}")).expect("written");
         return;
     }
     assert_eq!(is, table, "PAGES_UPDATE=1 renews the table");
