@@ -1,8 +1,8 @@
 //! Derivatives of the dynamics as expressions.
 //!
 //! τ is the generalised force that a motion needs besides the fields: τ(t, q, v, v̇) = S v̇ − r_s − r_f, r_f being the
-//! forces of fields (`field`) and of the prescribed acceleration of reference joints. So S v̇ = r_s + r_f + r is the motion under
-//! the forces r of all other laws.
+//! forces of fields (`field`) and of the prescribed acceleration of reference joints. So S v̇ = r_s + r_f + r is the
+//! motion under the forces r of all other laws.
 //!
 //! Derivatives with respect to positions are along the tangent: column j is the derivative along the motion that a unit
 //! of `v[j]` makes, q̇ being its coordinate rates. So all matrices have as many rows and columns as v. For a quaternion

@@ -10,32 +10,35 @@
 //!
 //! | of link k, about p_k | |
 //! |---|---|
-//! | m, h, Σ | the composite body |
-//! | P = Σ 2 m π',  B = Σ 2 m π' πᵀ | twice its momentum and its spread, relative to the link |
+//! | m, h, Σ | the composite body; J = tr Σ · 1 − Σ |
+//! | P = Σ 2 m π',  B = Σ 2 m π' πᵀ | twice the momentum and its spread, relative to the link |
 //! | f, n | the wrench that the motion relative to the link needs |
 //!
-//! No velocity of p_k occurs, because the dynamics are the same in all frames that move uniformly. With ω² = 2 ω, the
-//! body δ = (0, δh, δΣ) that is the change of the composite body, and K(w) = Σ m π × (w × δp) = −t z × Σw + s h × (w × z):
+//! No velocity of p_k occurs, because the dynamics are the same in all frames that move uniformly. The body δ has the
+//! change of the composite body: mass 0, δh and δΣ. For a vector w, K(w) = Σ m π × (w × δp) = −t z × Σw + s h × (w × z).
+//! A joint passes three wrenches to the root. Their powers per velocity of a carrier i are entries of a matrix:
 //!
-//! | wrench, passed towards the root | power per velocity of a carrier i |
+//! | wrench | entry |
 //! |---|---|
-//! | (δh, J t z + s h × z) | S |
-//! | by rate: (ω² × δh + t z × P,  K(ω²) + t (tr B − B) z) | ∂τ_i/∂v_k |
-//! | by position: wrench that δ needs in the motion of k + t z × (f, n) + s (0, z × f) + t (ψ × P, (tr B − B) ψ) | ∂τ_i/∂q_k |
+//! | (δh,  t J z + s h × z) | S_ik |
+//! | (2ω × δh + t z × P,  K(2ω) + t (tr B − B) z) | ∂τ_i/∂v_k |
+//! | the wrench that δ needs in the motion of k, plus t z × (f, n) + s (0, z × f) + t (ψ × P, (tr B − B) ψ) | ∂τ_i/∂q_k |
 //!
-//! The first of these and g = Σ 2 π̇ × δp m, with velocities relative to that of p, give the rows: at a carrier i,
+//! The first of them, (e, c) when it has come to the carrier i, and g = Σ 2 m (ṗ − ṗ_i) × δp give the entries of row k.
+//! On the way from a link to its carrier, by r, g increases by (2ω × r) × e, with ω of the carrier. a is the acceleration
+//! of p_i minus the field; z, t, s, ω, ψ and χ are those of i.
 //!
 //! | | |
 //! |---|---|
-//! | g becomes g + (ω² × r) × δh | on the way by r |
-//! | ∂τ_k/∂v_i | t (2ψ · n + g_z) + 2 s ψ · f |
-//! | ∂τ_k/∂q_i | t (χ · n + ψ · g − (z × a) · f) + s χ · f |
+//! | ∂τ_k/∂v_i | t (2ψ · c + z · g) + 2 s ψ · e |
+//! | ∂τ_k/∂q_i | t (χ · c + ψ · g − (z × a) · e) + s χ · e |
 //!
-//! a is the acceleration of p_i minus the field. A carrier also passes on what moves relative to it: of a joint with the
-//! rate u and the acceleration u̇, P + 2 u δh, B + 2 u Σ δp πᵀ m, f + u̇ δh + u (ω² − u t z) × δh, and so for n with K.
+//! A joint with the rate u and the acceleration u̇ changes what is outboard, seen from its carrier: P by 2 u δh, B by
+//! 2 u Σ m δp πᵀ, and (f, n) by u̇ (δh, t J z + s h × z) + u (w × δh, K(w)) with w = 2ω − u t z.
 //!
-//! A free base turns about absolute axes e with the velocities ω, and its v̇ are components in absolute axes. For it,
-//! ψ = ω × e for positions; a change of ω itself adds ½ ω × e in place of ψ. Moving the base changes nothing.
+//! A free base turns about absolute axes e, and its v and v̇ are components in absolute axes. For a change of its
+//! orientation the wrench that it passes is that of a hinge with z = e and ψ = ω × e. A change of ω alone changes the
+//! acceleration of p by e × (ω × π) + ω × (e × π) + 2 e × π'. Moving the base changes nothing.
 
 use super::body::Body;
 use super::forces;
