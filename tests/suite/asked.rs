@@ -1,6 +1,7 @@
 //! The functions that are asked for by name: identities on every bundled model, numbers of Pinocchio, and the same bits from every target.
 
 mod bits;
+mod derivatives;
 mod identities;
 mod pinocchio;
 mod points;
@@ -29,7 +30,7 @@ impl UserFunctions for Nothing {
     }
 }
 
-/// All functions, those of frames for each of these frames.
+/// All functions that every model has, those of frames for each of these frames.
 fn all(frames: &[String]) -> Vec<String> {
     let of =
         |function: &bryant_generator::dynamics::functions::Function| match function.is_of_frame() {
@@ -39,7 +40,8 @@ fn all(frames: &[String]) -> Vec<String> {
                 .collect(),
             false => vec![function.name.to_owned()],
         };
-    FUNCTIONS.iter().flat_map(of).collect()
+    let always = FUNCTIONS.iter().filter(|of| !of.may_be_impossible());
+    always.flat_map(of).collect()
 }
 
 /// The engine of a model with these functions.
