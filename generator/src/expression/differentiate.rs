@@ -380,6 +380,7 @@ mod tests {
                 parameters: &[],
                 auxiliaries: &[],
                 memory: &[],
+                accelerations: &[],
             };
             let call = |function: Function, a: &[f64]| match (function, a) {
                 (Function::Power, &[x, y]) => libm::pow(x, y),

@@ -127,6 +127,7 @@ fn values(
         parameters,
         auxiliaries: &[],
         memory: &vec![0.0; charts],
+        accelerations: &[],
     };
     let call = |function: Function, a: &[f64]| match *a {
         // any curves of time with their slopes
@@ -533,6 +534,7 @@ impl At<'_> {
             parameters: &parameters,
             auxiliaries: &z,
             memory: &plain(self.memory),
+            accelerations: &[],
         };
         evaluate(graph, roots, &inputs, &over_duals)
     }

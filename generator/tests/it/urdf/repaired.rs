@@ -11,6 +11,7 @@ const REPAIR: Options = Options {
     right_angles: false,
     stops: None,
     uncouple: false,
+    inputs: false,
 };
 
 /// The model of a robot that is refused without repair, and the changes. Each stands in the model, too.
