@@ -514,7 +514,11 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
         let pivots = &mut results[..self.machine().shared.info.pivots.len()];
         self.machine().at(Method::Pivots, t, y, pivots);
         let pivots = pivots.iter().copied().enumerate();
-        pivots.min_by(|a, b| a.1.to_f64().total_cmp(&b.1.to_f64()))
+        // the sign of a NaN depends on the processor, so it decides nothing
+        pivots.reduce(|least, next| match next.1.to_f64() < least.1.to_f64() {
+            true => next,
+            false => least,
+        })
     }
 
     fn violated(&self) -> Option<usize> {

@@ -119,12 +119,12 @@ def test_momentum_and_regressor(arm):
 
 
 def test_functions_follow_parameters_and_have_the_same_bits_in_rows():
-    model = bryant.load(CARTPOLE.replace("mass: 3", "mass: m").replace("dimension: 2", "dimension: 2\nparameters: { m: 3 }"))
+    model = bryant.load(CARTPOLE.replace("mass: 3", "mass: load").replace("dimension: 2", "dimension: 2\nparameters: { load: 3 }"))
     q, v = states(model, 33)
     together = model.inverse_dynamics(q, v, v)
     np.testing.assert_array_equal(model.inverse_dynamics(q[7], v[7], v[7]), together[7])
     np.testing.assert_array_equal(model.inverse_dynamics(q, v, v, threads=2), together)
-    model.parameters = {"m": 4.0}
+    model.parameters = {"load": 4.0}
     np.testing.assert_allclose(model.inverse_dynamics(q, v, v)[:, 0] - together[:, 0], v[:, 0], atol=1e-13)
 
 

@@ -30,7 +30,7 @@ fn the_page_has_all_functions() {
             length if length == n => "n".to_owned(),
             length if length == 10 * elements => "10 N".to_owned(),
             length if length == 2 * n => "2 n".to_owned(),
-            length if length == 3 * n + 1 => "3 n + 1".to_owned(),
+            length if length == 3 * n + 1 => "(3 n + 1)".to_owned(),
             length => length.to_string(),
         };
         let (rows, columns) = (side(&derived.rows), side(&derived.columns));

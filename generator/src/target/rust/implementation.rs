@@ -210,7 +210,7 @@ impl State {
             fn smallest_pivot(&self, t: T, y: &[T; STATE]) -> Option<(usize, T)> {
                 #split
                 let pivots = self.pivots(#arguments).into_iter().enumerate();
-                pivots.min_by(|a, b| a.1.to_f64().total_cmp(&b.1.to_f64()))
+                pivots.reduce(|least, next| if next.1.to_f64() < least.1.to_f64() { next } else { least })
             }
         }
     }
