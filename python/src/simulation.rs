@@ -226,7 +226,6 @@ fn run(
             break;
         }
     }
-    drop(run);
     let words = |finding: Finding| match finding.remedy.as_str() {
         "" => finding.message,
         remedy => format!("{}: {remedy}", finding.message),

@@ -327,10 +327,11 @@ fn rollouts_follow_closed_forms() {
         let mut state = [q[5], v[5]];
         for k in 0..steps {
             let inputs = &push[5 * ticks + k..][..1 + ticks - steps];
+            let before = state;
             let from = Rows {
                 time: 0.0,
-                coordinates: &state[..1].to_vec(),
-                velocities: &state[1..].to_vec(),
+                coordinates: &before[..1],
+                velocities: &before[1..],
                 inputs,
                 ..Rows::default()
             };

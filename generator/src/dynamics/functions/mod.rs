@@ -43,14 +43,14 @@ type Names = fn(&Known<'_, '_>) -> Vec<String>;
 /// How the values of a function are derived, by rows.
 enum Derive {
     /// Of the whole scene.
-    OfScene(for<'g> fn(&Known<'g, '_>) -> Vec<Expr<'g>>),
+    Always(for<'g> fn(&Known<'g, '_>) -> Vec<Expr<'g>>),
     /// Of the whole scene, unless one of its laws cannot be differentiated in symbols.
-    OfSmoothScene(for<'g> fn(&Known<'g, '_>) -> Result<Vec<Expr<'g>>, NotDifferentiable>),
+    IfSmooth(for<'g> fn(&Known<'g, '_>) -> Result<Vec<Expr<'g>>, NotDifferentiable>),
     /// Of a frame, which is the argument of the function.
-    OfFrame(for<'g> fn(&Known<'g, '_>, &Frame) -> Vec<Expr<'g>>),
+    PerFrame(for<'g> fn(&Known<'g, '_>, &Frame) -> Vec<Expr<'g>>),
 }
 
-use Derive::{OfFrame, OfScene, OfSmoothScene};
+use Derive::{Always, IfSmooth, PerFrame};
 
 /// A row of the table.
 pub struct Function {
@@ -70,12 +70,12 @@ pub struct Function {
 impl Function {
     /// True if a model may not have it, because one of its laws cannot be differentiated in symbols.
     pub fn may_be_impossible(&self) -> bool {
-        matches!(self.derive, OfSmoothScene(_))
+        matches!(self.derive, IfSmooth(_))
     }
 
     /// True if its argument is a frame.
     pub fn is_of_frame(&self) -> bool {
-        matches!(self.derive, OfFrame(_))
+        matches!(self.derive, PerFrame(_))
     }
 }
 
@@ -95,7 +95,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_ACCELERATIONS,
         rows: velocities,
         columns: one,
-        derive: OfScene(forces::inverse_dynamics),
+        derive: Always(forces::inverse_dynamics),
     },
     Function {
         name: "inverse_dynamics_derivatives",
@@ -103,7 +103,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_ACCELERATIONS,
         rows: velocities,
         columns: derivatives::motions_and_velocities,
-        derive: OfSmoothScene(derivatives::of_inverse_dynamics),
+        derive: IfSmooth(derivatives::of_inverse_dynamics),
     },
     Function {
         name: "acceleration_derivatives",
@@ -111,7 +111,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: velocities,
         columns: derivatives::value_and_derivatives,
-        derive: OfSmoothScene(derivatives::of_accelerations),
+        derive: IfSmooth(derivatives::of_accelerations),
     },
     Function {
         name: "linearisation",
@@ -119,7 +119,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: derivatives::rates_and_outputs,
         columns: derivatives::state_and_inputs,
-        derive: OfSmoothScene(derivatives::of_scene),
+        derive: IfSmooth(derivatives::of_scene),
     },
     Function {
         name: "mass_matrix",
@@ -127,7 +127,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: velocities,
         columns: velocities,
-        derive: OfScene(forces::mass_matrix),
+        derive: Always(forces::mass_matrix),
     },
     Function {
         name: "bias",
@@ -135,7 +135,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: velocities,
         columns: one,
-        derive: OfScene(forces::bias),
+        derive: Always(forces::bias),
     },
     Function {
         name: "gravity_forces",
@@ -143,7 +143,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: velocities,
         columns: one,
-        derive: OfScene(forces::gravity_forces),
+        derive: Always(forces::gravity_forces),
     },
     Function {
         name: "applied_forces",
@@ -151,7 +151,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: velocities,
         columns: one,
-        derive: OfScene(forces::applied_forces),
+        derive: Always(forces::applied_forces),
     },
     Function {
         name: "regressor",
@@ -159,7 +159,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_ACCELERATIONS,
         rows: velocities,
         columns: inertial_parameters,
-        derive: OfScene(regressor::regressor),
+        derive: Always(regressor::regressor),
     },
     Function {
         name: "pose",
@@ -167,7 +167,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: axes,
         columns: rotation_and_origin,
-        derive: OfFrame(frame::pose),
+        derive: PerFrame(frame::pose),
     },
     Function {
         name: "velocity",
@@ -175,7 +175,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: motion,
         columns: one,
-        derive: OfFrame(frame::velocity),
+        derive: PerFrame(frame::velocity),
     },
     Function {
         name: "acceleration",
@@ -183,7 +183,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_ACCELERATIONS,
         rows: motion,
         columns: one,
-        derive: OfFrame(frame::acceleration),
+        derive: PerFrame(frame::acceleration),
     },
     Function {
         name: "jacobian",
@@ -191,7 +191,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: motion,
         columns: velocities,
-        derive: OfFrame(frame::jacobian),
+        derive: PerFrame(frame::jacobian),
     },
     Function {
         name: "bias_acceleration",
@@ -199,7 +199,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: motion,
         columns: one,
-        derive: OfFrame(frame::bias_acceleration),
+        derive: PerFrame(frame::bias_acceleration),
     },
     Function {
         name: "center_of_mass",
@@ -207,7 +207,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: axes,
         columns: one,
-        derive: OfScene(whole::center_of_mass),
+        derive: Always(whole::center_of_mass),
     },
     Function {
         name: "centroidal_momentum",
@@ -215,7 +215,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: motion,
         columns: one,
-        derive: OfScene(whole::centroidal_momentum),
+        derive: Always(whole::centroidal_momentum),
     },
     Function {
         name: "centroidal_matrix",
@@ -223,7 +223,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: motion,
         columns: velocities,
-        derive: OfScene(whole::centroidal_matrix),
+        derive: Always(whole::centroidal_matrix),
     },
     Function {
         name: "kinetic_energy",
@@ -231,7 +231,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: one,
         columns: one,
-        derive: OfScene(whole::kinetic_energy),
+        derive: Always(whole::kinetic_energy),
     },
     Function {
         name: "potential_energy",
@@ -239,7 +239,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: one,
         columns: one,
-        derive: OfScene(whole::potential_energy),
+        derive: Always(whole::potential_energy),
     },
 ];
 
@@ -322,10 +322,10 @@ impl<'g, 'a> Known<'g, 'a> {
             let (function, name) = (request.function(), request.name().to_owned());
             self.scene.graph.section(name.clone());
             let values = match (&function.derive, request.frame()) {
-                (OfScene(derive), _) => Ok(derive(self)),
-                (OfSmoothScene(derive), _) => derive(self),
-                (OfFrame(derive), Some(frame)) => Ok(derive(self, frame)),
-                (OfFrame(_), None) => unreachable!("a request has the argument of its function"),
+                (Always(derive), _) => Ok(derive(self)),
+                (IfSmooth(derive), _) => derive(self),
+                (PerFrame(derive), Some(frame)) => Ok(derive(self, frame)),
+                (PerFrame(_), None) => unreachable!("a request has the argument of its function"),
             };
             match values {
                 Ok(values) => functions.push(equations::Function {
