@@ -107,7 +107,7 @@ pub fn derive_with(model: &Model, options: Options) -> Equations {
     derive_without(model, options, None)
 }
 
-/// Derives the equations of a model, with the [functions](functions) that are asked for; those that the model cannot have
+/// Derives the equations of a model, with the [functions] that are asked for; those that the model cannot have
 /// are named in [`Equations::impossible`].
 pub fn derive_functions(model: &Model, options: Options, requests: &[Request]) -> Equations {
     derive_in(model, options, requests, None, |graph, layout| {
