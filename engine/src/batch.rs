@@ -225,6 +225,8 @@ impl Batch {
         );
         self.varying = parameters.to_vec();
         self.conditional = self.checks.depends(Method::Conditions, parameters);
+        // the values of a row that was refused stay in it until then
+        self.checks.set_parameters(&self.parameters);
         for worker in &mut self.workers {
             for lanes in worker.both() {
                 lanes.vary(parameters);

@@ -30,8 +30,22 @@ pub struct Model {
 /// An engine, with room for calls.
 struct Pool {
     engine: Engine,
-    /// Models that no thread uses now, each with its number of threads. Calls on several threads of Python take one each.
-    idle: Mutex<Vec<(usize, Batch)>>,
+    idle: Mutex<Idle>,
+}
+
+/// Models that no thread uses now, each with its number of threads. Calls on several threads of Python take one each.
+#[derive(Default)]
+struct Idle {
+    batches: Vec<(usize, Batch)>,
+    /// Counts the changes of parameters: a model that was taken before the last one is not put back.
+    changes: u64,
+}
+
+/// A model that a call uses.
+struct Taken {
+    batch: Batch,
+    threads: usize,
+    changes: u64,
 }
 
 impl Pool {
@@ -42,32 +56,42 @@ impl Pool {
         }
     }
 
+    fn idle(&self) -> std::sync::MutexGuard<'_, Idle> {
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// A batch for so many threads, with these parameters, which were accepted before.
-    fn take(&self, threads: usize, parameters: &Mutex<Vec<f64>>) -> Batch {
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        match idle.iter().position(|(of, _)| *of == threads) {
-            Some(found) => idle.swap_remove(found).1,
-            None => {
-                drop(idle);
-                let mut batch = self.engine.batch(threads);
-                let values = parameters.lock().unwrap_or_else(PoisonError::into_inner);
-                let _ = batch.set_parameters(&values);
-                batch
-            }
+    fn take(&self, threads: usize, parameters: &Mutex<Vec<f64>>) -> Taken {
+        let mut idle = self.idle();
+        let changes = idle.changes;
+        let found = idle.batches.iter().position(|(of, _)| *of == threads);
+        let found = found.map(|found| idle.batches.swap_remove(found).1);
+        drop(idle);
+        let batch = found.unwrap_or_else(|| {
+            let mut batch = self.engine.batch(threads);
+            let values = parameters.lock().unwrap_or_else(PoisonError::into_inner);
+            let _ = batch.set_parameters(&values);
+            batch
+        });
+        Taken {
+            batch,
+            threads,
+            changes,
         }
     }
 
-    fn put_back(&self, threads: usize, batch: Batch) {
-        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
-        idle.push((threads, batch));
+    fn put_back(&self, taken: Taken) {
+        let mut idle = self.idle();
+        if idle.changes == taken.changes {
+            idle.batches.push((taken.threads, taken.batch));
+        }
     }
 
-    /// Drops models that have other parameters.
+    /// Drops all models, because the parameters have changed.
     fn forget(&self) {
-        self.idle
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .clear();
+        let mut idle = self.idle();
+        idle.changes += 1;
+        idle.batches.clear();
     }
 }
 
@@ -150,8 +174,8 @@ impl Model {
     /// Sets all parameters [SI].
     #[setter]
     fn set_values(&self, values: Vec<f64>) -> PyResult<()> {
-        let mut batch = self.pool.take(1, &self.parameters);
-        batch.set_parameters(&values).map_err(wrong)?;
+        let mut taken = self.pool.take(1, &self.parameters);
+        taken.batch.set_parameters(&values).map_err(wrong)?;
         *self.present() = values;
         self.pool.forget();
         let functions = self
@@ -159,8 +183,6 @@ impl Model {
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
         functions.values().for_each(|pool| pool.forget());
-        drop(functions);
-        self.pool.put_back(1, batch);
         Ok(())
     }
 
@@ -232,7 +254,8 @@ impl Model {
         let info = pool.engine.info();
         let given = Given::of(info, q, v, u, states, a)?;
         let vary = vary.map(|names| self.indices(&names)).transpose()?;
-        let mut batch = pool.take(threads, &self.parameters);
+        let mut taken = pool.take(threads, &self.parameters);
+        let batch = &mut taken.batch;
         if let Some(vary) = &vary {
             batch.vary(vary);
         }
@@ -266,7 +289,7 @@ impl Model {
             false => work(),
         };
         if vary.is_none() {
-            pool.put_back(threads, batch);
+            pool.put_back(taken);
         }
         done.map_err(wrong)?;
         match alone {
@@ -327,13 +350,14 @@ impl Model {
             false => (results, &mut [][..]),
         };
         let vary = vary.map(|names| self.indices(&names)).transpose()?;
-        let mut batch = self.pool.take(threads, &self.parameters);
+        let mut taken = self.pool.take(threads, &self.parameters);
+        let batch = &mut taken.batch;
         if let Some(vary) = &vary {
             batch.vary(vary);
         }
         let done = py.detach(|| batch.rollout(&rollout, &given.rows(t), to_states, to_outputs));
         if vary.is_none() {
-            self.pool.put_back(threads, batch);
+            self.pool.put_back(taken);
         }
         done.map_err(wrong)?;
         Ok(filled.array)

@@ -97,6 +97,20 @@ def test_a_row_has_the_same_bits_alone_on_threads_and_from_threads_of_python(dum
             np.testing.assert_array_equal(found, together)
 
 
+def test_parameters_that_change_during_calls_hold_for_all_later_ones():
+    model = bryant.load(CART)
+    q = np.zeros((2000, 1))
+    with concurrent.futures.ThreadPoolExecutor(4) as pool:
+        for mass in (2.0, 4.0, 5.0, 8.0, 10.0):
+            calls = [pool.submit(model.accelerations, q, q) for _ in range(8)]
+            model.parameters = {"mass": mass}
+            for call in calls:
+                call.result()
+            # as many at once as models were taken before
+            for found in pool.map(lambda _: model.accelerations(q, q), range(8)):
+                np.testing.assert_array_equal(found, 1 / mass)
+
+
 def test_results_go_to_an_array_that_is_given(dummy):
     q, v = near(dummy, 5)
     out = np.empty((5, len(dummy.velocities)))

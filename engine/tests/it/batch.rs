@@ -272,6 +272,43 @@ fn what_does_not_fit_or_is_not_allowed_is_refused_and_changes_nothing() {
     assert_eq!(results, [0.5; 2]);
 }
 
+/// A curve that an input stretches, so that a condition restricts mass and input.
+#[test]
+fn a_row_that_was_refused_does_not_refuse_others() {
+    let stretched = CART.replace(
+        "motor: push",
+        "motor: { curve: { points: [[0, 0], [1, 10]] }, stretch: push / 1 N + 1 }",
+    );
+    let engine = engine(&stretched);
+    let mut batch = engine.batch(1);
+    let rows = |inputs| Rows {
+        time: 0.5,
+        coordinates: &[0.0],
+        velocities: &[0.0],
+        inputs,
+        ..Rows::default()
+    };
+    let mut results = [0.0];
+    batch.vary(&[0]);
+    let refused = batch.evaluate(Wanted::Accelerations, &rows(&[-1.0]), &mut results);
+    assert!(refused.is_err());
+    // now the input varies, and the mass is that of the batch again: 10 · 0.5/2 N on 2 kg
+    batch.vary(&[1]);
+    batch
+        .evaluate(Wanted::Accelerations, &rows(&[1.0]), &mut results)
+        .unwrap();
+    assert_eq!(results, [1.25]);
+    assert!(
+        batch
+            .evaluate(Wanted::Accelerations, &rows(&[-2.0]), &mut results)
+            .is_err()
+    );
+    batch
+        .evaluate(Wanted::Accelerations, &rows(&[1.0]), &mut results)
+        .unwrap();
+    assert_eq!(results, [1.25]);
+}
+
 /// With held inputs the motion is a parabola in each step, with linear ones a cubic: the method follows both to rounding.
 #[test]
 fn rollouts_follow_closed_forms() {

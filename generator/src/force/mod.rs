@@ -22,7 +22,7 @@ pub use wrenches::{Wrench, Wrenches};
 
 use crate::expression::Graph;
 use crate::expression::vector::Vec3;
-use crate::model::FieldComponent;
+use crate::model::{FieldComponent, Model};
 use crate::motion::element::ElementMotion;
 use crate::motion::numbers::{curve, number};
 
@@ -38,6 +38,23 @@ pub struct AppliedForces<'g> {
     pub works: Vec<Work<'g>>,
     /// By force of the model: the quantities that outputs can ask of it.
     pub measures: Vec<Box<dyn Measures<'g> + 'g>>,
+}
+
+impl<'g> AppliedForces<'g> {
+    /// Wrenches alone, without states, events and works.
+    pub fn of_wrenches(model: &Model, wrenches: Wrenches<'g>) -> Self {
+        AppliedForces {
+            wrenches,
+            states: States {
+                auxiliaries: Vec::new(),
+                memory: Vec::new(),
+                switches: Vec::new(),
+            },
+            events: Events::none(model),
+            works: Vec::new(),
+            measures: Vec::new(),
+        }
+    }
 }
 
 /// Three components, each constant or a curve of time.

@@ -4,6 +4,8 @@ use super::AppliedForces;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::{Body, ElementId, Model, System};
+use crate::motion::Motion;
+use crate::motion::numbers::{number, vector};
 
 /// The force and the moment on one body, absolute axes.
 #[derive(Clone, Copy)]
@@ -39,6 +41,27 @@ pub struct Wrenches<'g> {
 }
 
 impl<'g> Wrenches<'g> {
+    /// The wrenches of fields that only some elements feel, about the origins of the elements: their accelerations
+    /// \[m/s²\] by system and element.
+    pub fn of_partial_fields(
+        graph: &'g Graph,
+        model: &Model,
+        motion: &Motion<'g>,
+        fields: &[Vec<Vec3<'g>>],
+    ) -> Self {
+        let mut wrenches = Wrenches::none(graph, model);
+        for (s, system) in model.systems.iter().enumerate() {
+            for (k, element) in system.elements.iter().enumerate() {
+                let force = number(graph, &element.mass) * fields[s][k];
+                let offset = motion.systems[s][k].rotation;
+                let offset = offset.times(vector(graph, &element.cg));
+                let moment = offset.cross(force);
+                wrenches.elements[s][k] = Wrench { force, moment };
+            }
+        }
+        wrenches
+    }
+
     /// No forces, on the bodies of a model.
     pub fn none(graph: &'g Graph, model: &Model) -> Self {
         let (zero, vector) = (graph.constant(0.0), Vec3::zero(graph));

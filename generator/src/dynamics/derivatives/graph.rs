@@ -1,12 +1,11 @@
 //! Derivatives of τ by differentiation of the expressions of S and of r_s + r_f, entry by entry.
 
-use super::loads::forces;
 use super::{Found, NotDifferentiable, Scene, zeros};
 use crate::dynamics::spatial::Spatial;
 use crate::dynamics::{applied_forces, bias_forces, mass_matrix};
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
 use crate::expression::{Expr, NodeId, Symbol};
-use crate::force::Wrenches;
+use crate::force::{AppliedForces, Wrenches};
 use std::ops::Range;
 use std::slice::from_ref;
 
@@ -36,7 +35,7 @@ impl<'g> Terms<'g> {
         let r_s = bias_forces::velocity_forces(system, zero, size);
         let mut fields = Wrenches::none(graph, spatial.model);
         fields.fields.clone_from(&scene.applied.wrenches.fields);
-        let fields = forces(spatial.model, fields);
+        let fields = AppliedForces::of_wrenches(spatial.model, fields);
         let r_f = applied_forces::applied_forces(system, &fields, zero, size);
         let places = rows
             .clone()

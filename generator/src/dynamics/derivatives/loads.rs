@@ -3,13 +3,10 @@
 use super::{NotDifferentiable, Scene, Square, zeros};
 use crate::dynamics::applied_forces;
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
-use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph, NodeId, Symbol};
-use crate::force::{AppliedForces, Events, States, Wrench, Wrenches};
-use crate::model::Model;
+use crate::force::{AppliedForces, Wrenches};
 use crate::motion::State;
 use crate::motion::kinematics::reference_acceleration;
-use crate::motion::numbers::{number, vector};
 
 /// Generalised forces by row of v, and their derivatives by row and column.
 pub struct Loads<'g> {
@@ -145,38 +142,13 @@ fn generalised<'g>(scene: &Scene<'g, '_>, applied: &AppliedForces<'g>) -> Vec<Ex
         .map(|spatial| reference_acceleration(graph, spatial.of_system(), spatial.motion))
         .collect();
     let (zero, size) = (graph.constant(0.0), scene.state.v.len());
-    let alone = forces(scene.model, wrenches);
+    let alone = AppliedForces::of_wrenches(scene.model, wrenches);
     applied_forces::applied_forces(scene.systems, &alone, zero, size)
 }
 
 /// The forces of fields that only some elements of a system feel.
 fn partial_fields<'g>(scene: &Scene<'g, '_>) -> AppliedForces<'g> {
-    let (graph, model) = (scene.graph, scene.model);
-    let mut wrenches = Wrenches::none(graph, model);
-    for spatial in scene.systems {
-        let s = spatial.system;
-        for (k, element) in model.systems[s].elements.iter().enumerate() {
-            let field: Vec3<'g> = scene.applied.wrenches.partial_fields[s][k];
-            let force = number(graph, &element.mass) * field;
-            let offset = (spatial.motion_of(k).rotation).times(vector(graph, &element.cg));
-            let moment = offset.cross(force);
-            wrenches.elements[s][k] = Wrench { force, moment };
-        }
-    }
-    forces(model, wrenches)
-}
-
-/// Wrenches without states and events.
-pub fn forces<'g>(model: &Model, wrenches: Wrenches<'g>) -> AppliedForces<'g> {
-    AppliedForces {
-        wrenches,
-        states: States {
-            auxiliaries: Vec::new(),
-            memory: Vec::new(),
-            switches: Vec::new(),
-        },
-        events: Events::none(model),
-        works: Vec::new(),
-        measures: Vec::new(),
-    }
+    let fields = &scene.applied.wrenches.partial_fields;
+    let wrenches = Wrenches::of_partial_fields(scene.graph, scene.model, scene.motion, fields);
+    AppliedForces::of_wrenches(scene.model, wrenches)
 }

@@ -5,9 +5,7 @@ use crate::dynamics::matrices::{Matrices, with_axes};
 use crate::dynamics::outputs::Scene;
 use crate::dynamics::{link, spatial};
 use crate::expression::Expr;
-use crate::expression::vector::Vec3;
-use crate::force::{AppliedForces, Events, States, Wrench, Wrenches};
-use crate::motion::numbers::{number, vector};
+use crate::force::{AppliedForces, Wrenches};
 
 /// S a − r_s − r_g, by the recursive Newton–Euler algorithm in the axes with the fewest operations.
 pub fn inverse_dynamics<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
@@ -47,31 +45,11 @@ pub fn applied_forces<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
 fn fields<'g>(scene: &Scene<'g, '_>) -> AppliedForces<'g> {
     let Scene { graph, model, .. } = *scene;
     let given = &scene.applied.wrenches;
-    let mut wrenches = Wrenches {
+    let partial = &given.partial_fields;
+    let wrenches = Wrenches {
         fields: given.fields.clone(),
-        partial_fields: given.partial_fields.clone(),
-        ..Wrenches::none(graph, model)
+        partial_fields: partial.clone(),
+        ..Wrenches::of_partial_fields(graph, model, scene.motion, partial)
     };
-    for (s, system) in model.systems.iter().enumerate() {
-        for (k, element) in system.elements.iter().enumerate() {
-            let offset = scene.motion.systems[s][k].rotation;
-            let offset: Vec3<'g> = offset.times(vector(graph, &element.cg));
-            let force = number(graph, &element.mass) * given.partial_fields[s][k];
-            wrenches.elements[s][k] = Wrench {
-                force,
-                moment: offset.cross(force),
-            };
-        }
-    }
-    AppliedForces {
-        wrenches,
-        states: States {
-            auxiliaries: Vec::new(),
-            memory: Vec::new(),
-            switches: Vec::new(),
-        },
-        events: Events::none(model),
-        works: Vec::new(),
-        measures: Vec::new(),
-    }
+    AppliedForces::of_wrenches(model, wrenches)
 }
