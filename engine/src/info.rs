@@ -27,7 +27,7 @@ pub fn info(facts: &Facts) -> &'static Info {
 fn leaked(facts: &Facts) -> Info {
     let curves = facts.curves.iter().map(|curve| CurveInfo {
         name: word(&curve.name),
-        unit: word(curve.unit),
+        unit: word(&curve.unit),
         first: curve.range[0],
         last: curve.range[1],
         ends: curve.ends,

@@ -1,5 +1,6 @@
 //! Makes engines from files and texts: reads the description, derives the equations.
 
+use crate::kept::KeptError;
 use crate::model::{Engine, Error};
 use bryant_generator::Config;
 use bryant_generator::diagnostic::Diagnostics;
@@ -15,6 +16,8 @@ pub enum LoadError {
     Description(Diagnostics),
     /// The engine could not be made.
     Engine(Error),
+    /// A kept engine could not be read.
+    Kept(KeptError),
 }
 
 impl std::fmt::Display for LoadError {
@@ -22,6 +25,7 @@ impl std::fmt::Display for LoadError {
         match self {
             LoadError::Description(problems) => problems.fmt(f),
             LoadError::Engine(error) => error.fmt(f),
+            LoadError::Kept(error) => error.fmt(f),
         }
     }
 }
@@ -37,6 +41,12 @@ impl From<Diagnostics> for LoadError {
 impl From<Error> for LoadError {
     fn from(error: Error) -> Self {
         LoadError::Engine(error)
+    }
+}
+
+impl From<KeptError> for LoadError {
+    fn from(error: KeptError) -> Self {
+        LoadError::Kept(error)
     }
 }
 

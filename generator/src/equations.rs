@@ -7,6 +7,7 @@ use crate::expression::{Graph, NodeId};
 use crate::method::argument::Argument;
 use crate::method::{Method, Start};
 use crate::model::Rule;
+use serde::{Deserialize, Serialize};
 
 /// Equations of motion over one graph.
 pub struct Equations {
@@ -191,11 +192,11 @@ pub struct CurveOfState {
 }
 
 /// A quantity that is watched during a run: the argument of a curve, or one that is treated like it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Watched {
     /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves), and its SI unit; "" for a
-    /// pure number.
-    Curve(usize, &'static str),
+    /// pure number, and in [facts](crate::program::Watched), which have the unit themselves.
+    Curve(usize, #[serde(skip)] &'static str),
     /// The side to which a joint is bent, as an angle.
     Bearing,
     /// The distance of an angle from ±180°, with its sign; a torque jumps there.

@@ -8,10 +8,12 @@ mod criteria;
 mod effects;
 mod equations;
 mod error_report;
+mod export;
 mod gradient;
 mod help;
 mod human;
 mod import;
+mod integration;
 mod merge;
 mod model_argument;
 mod models;
@@ -55,6 +57,7 @@ Examples:
   bryant check my.yaml                               what was understood, or everything that is wrong
   bryant human --like male-50 -o man.yaml            an adult as a system for models
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
+  bryant export fmu my.yaml                          an FMU for Simulink, Dymola, OpenModelica
   bryant settle my.yaml -o rest.json                 a state of rest, to start runs from
   bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
                                                      injury criteria beside the limits of a regulation
@@ -92,6 +95,7 @@ enum Command {
     Check(check::Arguments),
     Human(human::Arguments),
     Import(import::Arguments),
+    Export(export::Arguments),
     Settle(settle::Arguments),
     Criteria(criteria::Arguments),
     Schema(schema::Arguments),
@@ -241,6 +245,7 @@ impl Cli {
             Command::Gradient(arguments) => arguments.execute(&mut terminal),
             Command::Human(arguments) => arguments.execute(&mut terminal),
             Command::Import(arguments) => arguments.execute(&mut terminal),
+            Command::Export(arguments) => arguments.execute(&mut terminal),
         };
         // earlier output must come before the message
         let printed = terminal.flush();

@@ -19,16 +19,16 @@ use super::accuracy::accuracy;
 use super::caution::{self, singular::Near};
 use super::compare::{filter_standard, pair};
 use super::error_report::ErrorReport;
+use super::integration::Integration;
 use super::model_argument::{Found, find};
 use super::outputs::{self, Replacing};
 use super::parameters::{parse_parameters, values_of};
-use super::prepare::{Prepared, by_rustc, prepare};
+use super::prepare::{by_rustc, prepare};
 use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::accuracy::check::{self, Certainty, Checked, FAR};
 use crate::accuracy::comparison::PROMISED;
 use crate::accuracy::fastest::fastest;
-use crate::accuracy::setting::Scheme;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;
@@ -43,7 +43,6 @@ use bryant_generator::model::scene::Scene;
 use bryant_generator::model::units::UnitSystem;
 use bryant_runtime::program::{ErrorKind, Finding, Job, RunError};
 use bryant_runtime::response::filter::Standard;
-use bryant_runtime::{Family, Formula, Method, Tolerances};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use files::Files;
@@ -77,17 +76,8 @@ pub struct Arguments {
     /// Name of a bundled model, or path of a YAML or URDF file
     model: String,
 
-    /// Integrator [default: dopri5, and rodas5 where the scene is stiff; rk4 where --step is given]
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Formula::ALL.map(Formula::name)))]
-    method: Option<String>,
-
-    /// Fixed steps of at most this length; a time [default of rk4 and semi-implicit-euler: 0.1 ms]
-    #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
-    step: Option<f64>,
-
-    /// Relative error allowed in a step; positions (m) and angles (rad) may err by a tenth of it, whatever their size [default: 1e-7]
-    #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true, conflicts_with = "step")]
-    tolerance: Option<f64>,
+    #[command(flatten)]
+    integration: Integration,
 
     /// Accuracy of every output, relative to its largest magnitude (1%, 1e-3): the program chooses the method, sharpens the tolerance until
     /// runs agree, and prints the estimated error
@@ -102,11 +92,6 @@ pub struct Arguments {
     /// by more than 0.1 %, the run is repeated at a smaller tolerance
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
-
-    /// What steps do at kinks of force laws, where a contact touches or a curve bends: `located` ends steps there, `passed` steps over
-    /// them; locating pays at tolerances below about 1e-8
-    #[arg(long, value_name = "HOW", default_value = "passed", value_parser = PossibleValuesParser::new(["located", "passed"]))]
-    kinks: String,
 
     /// What evaluates the equations: built-in is machine code or an interpreter of this program; rustc compiles the generated Rust of the
     /// whole model with optimisation, which takes seconds to minutes and is meant for comparisons
@@ -317,9 +302,6 @@ pub(super) const TIME_LIMIT: f64 = 300.0;
 /// Time limit of the search for the cause of a slow run \[s\].
 const LOOKING: f64 = 10.0;
 
-/// Length of fixed steps if the user gives none \[s\]: the usual step of crash simulations.
-const CUSTOMARY_STEP: f64 = 1e-4;
-
 impl Arguments {
     /// Runs the model.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
@@ -338,7 +320,8 @@ impl Arguments {
         self.follow_inputs(&mut found, &job)?;
         let engine = prepare(&found, terminal)?;
         if let Some(path) = &self.start {
-            let read = self.read_start(path, &found, &engine, &job)?;
+            let end = job.duration.unwrap_or(found.model.run.duration);
+            let read = read_start(path, &found.model, &engine, &job.parameters, end)?;
             for note in &read.notes {
                 terminal.note(note);
             }
@@ -419,22 +402,6 @@ impl Arguments {
         };
         let end = self.duration.unwrap_or(found.model.run.duration);
         inputs::follow(&mut found.model, &self.input, [start, end])
-    }
-
-    /// Reads the state of `--start`, with remarks about it.
-    fn read_start(
-        &self,
-        path: &Path,
-        found: &Found,
-        engine: &Prepared,
-        job: &Job,
-    ) -> Result<state_file::Read, Error> {
-        let mut model = Family::over::<f64>(&**engine);
-        model.set_parameters(&values_of(&found.model, &job.parameters));
-        let mut own = vec![0.0; engine.info().state_length()];
-        model.initial_state(&mut own);
-        let end = self.duration.unwrap_or(found.model.run.duration);
-        state_file::read(path, engine.info(), &own, end).map_err(Error::Input)
     }
 
     /// Looks for the cause of a failure or of a slow run; after a run that reached its end, adds doubts and notes about
@@ -519,7 +486,7 @@ impl Arguments {
 
     fn job(&self, scene: &Scene) -> Result<Job, Error> {
         let model = &scene.model;
-        let method = self.integrator()?;
+        let method = self.integration.method()?;
         let duration = self.duration.unwrap_or(model.run.duration);
         let every = self.every.unwrap_or(model.run.every);
         if duration / every > MOST_ROWS {
@@ -540,7 +507,7 @@ impl Arguments {
             duration: self.duration,
             every: self.every,
             method,
-            locate: Some(self.kinks == "located"),
+            locate: Some(self.integration.locates_kinks()),
             max_steps: self.max_steps,
             time_limit: Duration::try_from_secs_f64(self.time_limit.unwrap_or(TIME_LIMIT)).ok(),
             energy_limit: self.energy_limit,
@@ -551,32 +518,7 @@ impl Arguments {
 
     /// True if a method with a Jacobian is requested, or may be chosen.
     fn may_be_stiff(&self) -> bool {
-        self.accuracy.is_some() || self.method.as_deref() == Some(Formula::Rodas5.name())
-    }
-
-    /// The integrator and its steps; `None` if the user says nothing about them.
-    fn integrator(&self) -> Result<Option<Method>, Error> {
-        let named = self.method.as_deref().and_then(Formula::named);
-        Ok(match (named, self.step, self.tolerance) {
-            (None, None, None) => None,
-            (formula, Some(step), _) => Some(Method::fixed(formula.unwrap_or(Formula::Rk4), step)),
-            (Some(formula), None, tolerance) if !formula.estimates_error() => {
-                if tolerance.is_some() {
-                    return Err(Error::Input(format!(
-                        "{formula} does not estimate its error and so has no tolerance\n  help: use --step, or --tolerance with one of {}",
-                        with_tolerances()
-                    )));
-                }
-                Some(Method::fixed(formula, CUSTOMARY_STEP))
-            }
-            (formula, None, tolerance) => {
-                let tolerances = tolerance.map_or_else(Tolerances::default, Tolerances::of);
-                Some(match formula {
-                    Some(formula) => Method::adaptive(formula, tolerances),
-                    None => Method::switching(Scheme::DEFAULT.formula, tolerances),
-                })
-            }
-        })
+        self.accuracy.is_some() || self.integration.is_implicit()
     }
 
     /// Runs the job, and finds out about the error of the run.
@@ -762,10 +704,19 @@ pub(super) fn time_limit(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The names of the integrators that estimate their error.
-fn with_tolerances() -> String {
-    let estimating = Formula::ALL.into_iter().filter(|f| f.estimates_error());
-    estimating.map(Formula::name).collect::<Vec<_>>().join(", ")
+/// Reads the state with which a run until `end` \[s\] begins.
+pub(super) fn read_start(
+    path: &Path,
+    of: &Model,
+    engine: &Engine,
+    parameters: &[(String, f64)],
+    end: f64,
+) -> Result<state_file::Read, Error> {
+    let mut model = engine.in_double();
+    model.set_parameters(&values_of(of, parameters));
+    let mut own = vec![0.0; engine.info().state_length()];
+    model.initial_state(&mut own);
+    state_file::read(path, engine.info(), &own, end).map_err(Error::Input)
 }
 
 /// If a joint is in a singular position, names it as the cause of a failure.

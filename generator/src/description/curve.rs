@@ -7,6 +7,7 @@ use super::schema::{Schema, any_of};
 use super::shape::{In, Misfit, Problems, Record, Shape, check_record, record, words};
 use super::tree::{Kind, Node};
 use serde_yaml::Value;
+use std::ops::Deref;
 
 record! {
     /// A function through points.
@@ -106,8 +107,45 @@ pub enum Function {
     Inline(Curve),
 }
 
+/// A function that is a curve: by name, scaled, or written in place. Derefs to it.
+#[derive(Clone, Debug)]
+pub struct NoConstant(Function);
+
+impl Deref for NoConstant {
+    type Target = Function;
+    fn deref(&self) -> &Function {
+        &self.0
+    }
+}
+
+impl Shape for NoConstant {
+    fn schema(to: &mut Schema) -> Value {
+        to.define("a function that is a curve", |to| {
+            any_of([
+                String::schema(to),
+                ScaledCurve::schema(to),
+                Curve::schema(to),
+            ])
+        })
+    }
+
+    fn check(at: At<'_>, problems: &Problems) {
+        match &at.node.kind {
+            Kind::Scalar { .. } if at.node.article() == "a number" => problems.add(at.problem(
+                "here stands a number, but a curve is needed",
+                "write the name of a curve, or a line through zero: `{ points: [[-1, -40], [1, 40]], extrapolate: linear }`",
+            )),
+            _ => Function::check(at, problems),
+        }
+    }
+
+    fn read(value: &Value) -> Result<Self, Misfit> {
+        Function::read(value).map(NoConstant)
+    }
+}
+
 /// A function of `X`, measured in `Y`.
-pub type FunctionOf<X, Y> = In<Function, (X, Y)>;
+pub type FunctionOf<X, Y> = In<NoConstant, (X, Y)>;
 
 /// A number, or a function of the time \[s\], measured in `Y`.
 pub type OverTime<Y> = In<Function, Y>;

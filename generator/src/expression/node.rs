@@ -1,5 +1,7 @@
 //! The nodes of a graph: the inputs of the equations, the functions that are called, and the operations.
 
+use serde::{Deserialize, Serialize};
+
 /// Index of a node in its graph, in order of creation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub u32);
@@ -25,7 +27,7 @@ pub enum Symbol {
 }
 
 /// A function that is not algebra. Generated code calls it in the runtime by these names.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Function {
     /// Value of the curve with this index in the model, at one argument.
     Curve(u32),
@@ -58,7 +60,7 @@ pub enum Function {
 }
 
 /// One result of a call of a function of the user.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct UserCall {
     /// Index of the force in the model.
     pub force: u16,
@@ -71,7 +73,7 @@ pub struct UserCall {
 }
 
 /// One result of the approach of two ellipsoids.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct ApproachCall {
     /// True in the plane, where matrices are given as xx, zz, xz and vectors as x, z. In space, matrices are given as
     /// xx, yy, zz, yz, xz, xy and vectors as x, y, z.

@@ -16,6 +16,8 @@ pub mod inputs;
 pub mod results;
 pub mod table;
 
+use serde::{Deserialize, Serialize};
+
 /// Declares the methods of a model, in the order of their numbers: each with its name in all targets, and a sentence that
 /// stands there and in the generated text.
 macro_rules! methods {
@@ -120,7 +122,7 @@ const fn same(one: &[u8], other: &[u8]) -> bool {
 }
 
 /// The values from which a method starts, besides time, state and parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Start {
     /// Nothing.
     #[default]

@@ -8,7 +8,7 @@
 //! (Fritsch and Butland 1984), which keeps m ≤ 3Δ on either side (Fritsch and Carlson 1980).
 
 use super::number::Number;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A function through points (SI).
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,7 +48,7 @@ pub enum Interpolate {
 }
 
 /// Extrapolation of a curve beyond its first and last point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Extrapolate {
     /// The outermost segment continues; for cubics, its tangent at the outermost point.
     Linear,

@@ -2,9 +2,10 @@
 //! is read, parameters before a run.
 
 use super::number::Number;
+use serde::{Deserialize, Serialize};
 
 /// The values that a number may have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Rule {
     /// Any finite number.
     Finite,

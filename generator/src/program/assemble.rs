@@ -35,7 +35,7 @@ pub fn counted_lists(
             functions.push(Function {
                 name: function.name.clone(),
                 identifier: procedure.method.name.clone().into_owned(),
-                sentence: function.sentence,
+                sentence: function.sentence.into(),
                 rows: function.rows.clone(),
                 columns: function.columns.clone(),
                 accelerations: function.arguments.contains(&Argument::Accelerations),

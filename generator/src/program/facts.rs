@@ -5,9 +5,11 @@ use crate::equations::{Equations, LEAST_VOLUME, NO_BEARING, Variable};
 use crate::law::ForceKind;
 use crate::method::Method;
 use crate::model::{Dimension, Extrapolate, Model};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Names, units and sizes of a model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
     /// Name of the model.
     pub name: String,
@@ -63,7 +65,7 @@ pub struct Facts {
 }
 
 /// The kind of an entry of the state, like the runtime's `StateKind`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Kind {
     /// A coordinate of a reference joint \[m\].
     Position,
@@ -80,12 +82,12 @@ pub enum Kind {
 }
 
 /// A curve whose argument depends on the state, or another quantity watched like such an argument.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Watched {
     /// Name of its owner and of the curve.
     pub name: String,
     /// SI unit of its abscissa; "" for a pure number.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
     /// Its first and last abscissa; for other quantities, the range of values.
     pub range: [f64; 2],
     /// The values of the curve at these abscissae.
@@ -99,7 +101,7 @@ pub struct Watched {
 }
 
 /// A column of the table of outputs.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Column {
     /// Heading.
     pub name: String,
@@ -108,7 +110,7 @@ pub struct Column {
 }
 
 /// A parameter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Adjustable {
     /// Name.
     pub name: String,
@@ -232,7 +234,7 @@ const BEARINGS: [f64; 2] = [-std::f64::consts::PI, NO_BEARING];
 
 fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
     let of = |watched: &crate::equations::CurveOfState| {
-        let crate::equations::Watched::Curve(curve, unit) = watched.what else {
+        let crate::equations::Watched::Curve(index, unit) = watched.what else {
             let range = match watched.what {
                 crate::equations::Watched::Volume => [0.0, 1.0 - LEAST_VOLUME],
                 crate::equations::Watched::Edge => [0.0, 1.0],
@@ -240,7 +242,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
             };
             return Watched {
                 name: watched.name.clone(),
-                unit: "",
+                unit: "".into(),
                 range,
                 ends: [0.0; 2],
                 extrapolate: Extrapolate::Hold,
@@ -248,18 +250,18 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
                 kind: watched.what,
             };
         };
-        let curve = &model.curves[curve];
+        let curve = &model.curves[index];
         let [[first, start], .., [last, end]] = curve.points[..] else {
             unreachable!("the reader of models refuses a curve of fewer than two points");
         };
         Watched {
             name: watched.name.clone(),
-            unit,
+            unit: unit.into(),
             range: [first, last],
             ends: [start, end],
             extrapolate: curve.extrapolate,
             told: curve.told,
-            kind: watched.what,
+            kind: crate::equations::Watched::Curve(index, ""),
         }
     };
     equations.curves.iter().map(of).collect()

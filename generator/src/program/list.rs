@@ -1,13 +1,14 @@
 //! A straight-line program as data.
 
 use crate::expression::Function;
+use serde::{Deserialize, Serialize};
 
 /// A value of a list, by its number: constants come first, then inputs, then the results of operations, in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct Value(pub u32);
 
 /// An input of a list.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Input {
     /// t \[s\].
     Time,
@@ -25,7 +26,7 @@ pub enum Input {
 
 /// One operation. It defines one value, except [`Operation::SinCos`], which defines two, and [`Operation::Call`], which
 /// defines as many values as the function has results.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Operation {
     /// −a
     Neg(Value),
@@ -60,7 +61,7 @@ pub enum Operation {
 }
 
 /// A straight-line program: no loops, no branches, every value defined once.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct List {
     /// Constants: the values 0, 1, ….
     pub constants: Vec<f64>,

@@ -3,10 +3,12 @@
 use super::{Facts, List};
 use crate::method::{Method, Start};
 use crate::model::{self, Extrapolate, Interpolate, Rule};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A method as a list.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Routine {
     /// The computation.
     pub list: List,
@@ -15,7 +17,7 @@ pub struct Routine {
 }
 
 /// A curve of a model.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
     /// Name in the description.
     pub name: String,
@@ -41,14 +43,14 @@ impl From<&model::Curve> for Curve {
 }
 
 /// A [function](crate::dynamics::functions) that was asked for.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Function {
     /// Its name, with its argument: "jacobian(arm/hand)".
     pub name: String,
     /// Its name in Rust and C: "jacobian_arm_hand".
     pub identifier: String,
     /// What it computes.
-    pub sentence: &'static str,
+    pub sentence: Cow<'static, str>,
     /// The names of its rows; a single row may have none.
     pub rows: Vec<String>,
     /// The names of its columns; a single column has none.
@@ -63,7 +65,7 @@ pub struct Function {
 ///
 /// The lists have exactly the operations of the Rust text that [`Config::source`](crate::Config::source) gives with the
 /// same options, in the same order, so their results have the same bits, including the signs of zeros.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Lists {
     /// Names, units, sizes.
     pub facts: Facts,

@@ -5,7 +5,8 @@ use super::quantity::{Measure, describe};
 use super::{AXES, Resolver};
 use crate::description::curve::{
     Curve as Written, Extrapolate as WrittenExtrapolate, Function, FunctionOf,
-    Interpolate as WrittenInterpolate, NameOrCurve, OverTime, ScaledCurve as WrittenScaled,
+    Interpolate as WrittenInterpolate, NameOrCurve, NoConstant, OverTime,
+    ScaledCurve as WrittenScaled,
 };
 use crate::description::load::{beside, channel_key};
 use crate::description::measure::{Expected, Measured as InUnit, OfItsUse, TIME};
@@ -649,7 +650,7 @@ impl Resolver<'_> {
     /// The elastic law of a coordinate with these quantities.
     pub fn elastic_in(
         &mut self,
-        (key, curve): (&str, Option<&Function>),
+        (key, curve): (&str, Option<&NoConstant>),
         stiffness: Option<&Quantity>,
         at: At<'_>,
         [x, y, slope]: [Expected; 3],

@@ -1,7 +1,7 @@
 //! Hysteresis: curves of unloading, and the steep line between loading and unloading.
 
 use super::Resolver;
-use crate::description::curve::Function;
+use crate::description::curve::NoConstant;
 use crate::description::measure::Expected;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
@@ -14,7 +14,7 @@ const STEEPNESS: f64 = 10.0;
 /// The keys of a force law with hysteresis, as written.
 pub struct Unloading<'w> {
     /// The key `unloading`.
-    pub curve: Option<&'w Function>,
+    pub curve: Option<&'w NoConstant>,
     /// The key `unloading_slope`.
     pub slope: Option<&'w Quantity>,
     /// The key of the loading curve, and true if it is written.

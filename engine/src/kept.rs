@@ -1,0 +1,90 @@
+//! Engines in files: the derived lists of a model, so that loading needs neither the description nor a derivation.
+//!
+//! A file is a line with the version, the SHA-256 of the rest, and the rest: [`Lists`] as
+//! [postcard](https://postcard.jamesmunns.com/wire-format).
+
+use crate::model::{Engine, Error};
+use bryant_generator::program::Lists;
+use sha2::{Digest, Sha256};
+
+/// The first line of a file, without the version.
+const HEAD: &str = "bryant engine ";
+
+/// The version whose files this one reads: lists differ from version to version.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Length of a SHA-256.
+const DIGEST: usize = 32;
+
+/// Why the content of a file is not an engine.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum KeptError {
+    /// It does not begin as [`Engine::keep`] writes it.
+    Other,
+    /// It was written by another version of this program.
+    Version {
+        /// The version.
+        written_by: String,
+    },
+    /// It is incomplete, or something has changed it.
+    Damaged,
+    /// The engine could not be made.
+    Engine(Error),
+}
+
+impl std::fmt::Display for KeptError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            KeptError::Other => write!(f, "this is no kept engine"),
+            KeptError::Version { written_by } => write!(
+                f,
+                "the engine was kept by version {written_by}, and this is {VERSION}: keep it again from its model"
+            ),
+            KeptError::Damaged => write!(
+                f,
+                "the kept engine is damaged: keep it again from its model"
+            ),
+            KeptError::Engine(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for KeptError {}
+
+impl Engine {
+    /// The engine as the content of a file that [`Engine::of_kept`] reads. Functions of the user are not in it.
+    pub fn keep(&self) -> Vec<u8> {
+        let lists = postcard::to_allocvec(self.lists())
+            .unwrap_or_else(|error| unreachable!("lists are plain data: {error}"));
+        let mut content = format!("{HEAD}{VERSION}\n").into_bytes();
+        content.extend(Sha256::digest(&lists));
+        content.extend(lists);
+        content
+    }
+
+    /// The engine that was kept, with its functions. A file that someone has made on purpose may do anything, like any
+    /// program: take it only from where you would take a program.
+    ///
+    /// # Errors
+    /// Another content, one of another version, a damaged one; a model with functions of the user, which need a compiler.
+    pub fn of_kept(content: &[u8]) -> Result<Self, KeptError> {
+        let rest = content.strip_prefix(HEAD.as_bytes());
+        let rest = rest.ok_or(KeptError::Other)?;
+        let end = rest.iter().position(|&byte| byte == b'\n');
+        let (version, rest) = rest.split_at(end.ok_or(KeptError::Damaged)?);
+        if version != VERSION.as_bytes() {
+            return Err(KeptError::Version {
+                written_by: String::from_utf8_lossy(version).into_owned(),
+            });
+        }
+        let (digest, lists) = rest[1..]
+            .split_at_checked(DIGEST)
+            .ok_or(KeptError::Damaged)?;
+        if digest != &Sha256::digest(lists)[..] {
+            return Err(KeptError::Damaged);
+        }
+        let lists: Lists = postcard::from_bytes(lists).map_err(|_| KeptError::Damaged)?;
+        Self::new(lists).map_err(KeptError::Engine)
+    }
+}
