@@ -105,7 +105,7 @@ impl Instance {
         end: Option<f64>,
         tolerance: Option<f64>,
     ) -> Result<(), Message> {
-        if !begin.is_finite() || end.is_some_and(|end| !(end > begin)) {
+        if !begin.is_finite() || end.is_some_and(|end| !(end.is_finite() && end > begin)) {
             return Err(format!(
                 "no run goes from {begin} s to {} s",
                 end.unwrap_or(begin)
@@ -154,13 +154,13 @@ impl Instance {
             return Err("there is no run: it was not initialised, or it failed".to_owned());
         };
         let trifle = ROUNDING * from.abs().max(length.abs());
-        if !((from - shown.t).abs() <= trifle) {
+        if from.is_nan() || (from - shown.t).abs() > trifle {
             return Err(format!(
                 "the run is at {} s, and the step begins at {from} s",
                 shown.t
             ));
         }
-        if !(length > 0.0) {
+        if !(length.is_finite() && length > 0.0) {
             return Err(format!("the step has a length of {length} s"));
         }
         // where a run with equal intervals would sample, if that differs by rounding; and the end, if rounding goes past it

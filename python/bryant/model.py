@@ -16,7 +16,7 @@ def load(model, **options):
     """Loads a model: a bundled one by name, a file in YAML or URDF by path, or a text of either.
 
     Options are those of `bryant import`, for a robot in URDF: base="free", stops=1e4, right_angles=True, uncouple=True,
-    no_inputs=True, repair_inertias=True.
+    no_inputs=True, repair_inertias=True. A file that `Model.keep` wrote is read in a millisecond.
     Raises Error with every problem of the description, its place and what to do.
     """
     path, folder = os.fspath(model), None
@@ -75,7 +75,7 @@ class Model(_bryant.Model):
 
     def __new__(cls, path):
         made = super().__new__(cls, path)
-        made.path = path
+        made._path = path
         made.coordinates, made.velocities, made.auxiliaries, made.memory = map(Named, made.state)
         made.outputs_of = Named(made.outputs_named)
         named = made.parameters_named
@@ -90,6 +90,26 @@ class Model(_bryant.Model):
             f"<bryant model {self.name}: {len(self.velocities)} degrees of freedom, "
             f"{len(self.inputs)} inputs, {self.arithmetic}>"
         )
+
+    def keep(self, path, functions=()):
+        """Writes the derived equations into a file `path`.bryant, which `load` reads in a millisecond.
+
+        Of the functions of a robot those are in it that are named here, as "inverse_dynamics" or "jacobian(arm/hand)".
+        Runs, studies and gradients need the description, and are not there. A kept file is a program: load only what you trust.
+        """
+        path = os.fspath(path)
+        if not path.endswith(".bryant"):
+            raise _bryant.Error(f"the name of a kept file ends in .bryant, and {path} does not")
+        content = super().keep(list(functions))
+        with open(path, "wb") as file:
+            file.write(bytes(content))
+
+    @property
+    def path(self):
+        """Where the description is: a file, or the name of a bundled model."""
+        if self._path.endswith(".bryant"):
+            raise _bryant.Error(f"{self._path} has equations only: load the description for runs, studies and gradients")
+        return self._path
 
     # -- parameters
 

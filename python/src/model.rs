@@ -12,6 +12,9 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// The ending of files with derived equations.
+const KEPT: &str = ".bryant";
+
 /// Number of rows from which other threads of Python may run meanwhile. For fewer, waiting for them would take longer than
 /// the rows do.
 const MANY: usize = 8;
@@ -19,10 +22,11 @@ const MANY: usize = 8;
 /// The equations of a model as machine code.
 #[pyclass(frozen, subclass)]
 pub struct Model {
-    model: model::Model,
+    /// The description; `None` where the engine was kept in a file.
+    model: Option<model::Model>,
     pool: Pool,
-    /// The functions that were asked for, by name, each derived when it was asked for first.
-    functions: Mutex<HashMap<String, Arc<Pool>>>,
+    /// The functions that were asked for, by name, each derived when it was asked for first, with their index in the engine.
+    functions: Mutex<HashMap<String, (Arc<Pool>, usize)>>,
     /// The values of all parameters [SI].
     parameters: Mutex<Vec<f64>>,
 }
@@ -100,22 +104,37 @@ type Parameter = (&'static str, &'static str, f64, f64, f64, bool);
 
 #[pymethods]
 impl Model {
-    /// The model of a file: YAML or URDF; or a bundled one, by name.
+    /// The model of a file: YAML, URDF, or one that `keep` made; or a bundled one, by name.
     #[new]
     fn new(py: Python<'_>, path: &str) -> PyResult<Self> {
         py.detach(|| {
+            if path.ends_with(KEPT) {
+                let content = std::fs::read(path);
+                let content = content.map_err(|error| wrong(format!("{path}: {error}")))?;
+                let engine = Engine::of_kept(&content);
+                let engine = engine.map_err(|error| wrong(format!("{path}: {error}")))?;
+                return Ok(Self::of(engine, None));
+            }
             let model = match bryant::bundled::find(path) {
                 Some(bundled) => bryant::bundled::model(bundled).map_err(wrong)?,
                 None => bryant_generator::read(Path::new(path)).map_err(wrong)?.0,
             };
             let engine = Engine::of(&model, &Config::new()).map_err(wrong)?;
-            let parameters = engine.info().parameters.iter().map(|of| of.default);
-            Ok(Model {
-                parameters: Mutex::new(parameters.collect()),
-                functions: Mutex::default(),
-                pool: Pool::new(engine),
-                model,
-            })
+            Ok(Self::of(engine, Some(model)))
+        })
+    }
+
+    /// The content of a file with the derived equations, and these functions.
+    fn keep(&self, py: Python<'_>, functions: Vec<String>) -> PyResult<Vec<u8>> {
+        py.detach(|| {
+            let Some(model) = &self.model else {
+                return Err(wrong("the equations are from a kept file: copy that"));
+            };
+            let mut config = Config::new();
+            config.functions(functions);
+            config.requests(model, &model.name).map_err(wrong)?;
+            let engine = Engine::of(model, &config).map_err(wrong)?;
+            Ok(engine.keep())
         })
     }
 
@@ -182,7 +201,7 @@ impl Model {
             .functions
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
-        functions.values().for_each(|pool| pool.forget());
+        functions.values().for_each(|(pool, _)| pool.forget());
         Ok(())
     }
 
@@ -248,7 +267,10 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked = match wanted(what) {
             Some(wanted) => (None, wanted),
-            None => (Some(self.asked(py, what)?), Wanted::Function(0)),
+            None => {
+                let (pool, index) = self.asked(py, what)?;
+                (Some(pool), Wanted::Function(index))
+            }
         };
         let (pool, wanted) = (asked.0.as_deref().unwrap_or(&self.pool), asked.1);
         let info = pool.engine.info();
@@ -300,8 +322,8 @@ impl Model {
 
     /// The names of the rows and columns of a function.
     fn names_of(&self, py: Python<'_>, what: &str) -> PyResult<(Vec<String>, Vec<String>)> {
-        let asked = self.asked(py, what)?;
-        let function = &asked.engine.functions()[0];
+        let (asked, index) = self.asked(py, what)?;
+        let function = &asked.engine.functions()[index];
         Ok((function.rows.clone(), function.columns.clone()))
     }
 
@@ -391,8 +413,26 @@ impl Model {
         names.iter().map(place).collect()
     }
 
-    /// The engine of a function, which is derived when it is asked for first.
-    fn asked(&self, py: Python<'_>, what: &str) -> PyResult<Arc<Pool>> {
+    /// A model at the default values of its parameters.
+    fn of(engine: Engine, model: Option<model::Model>) -> Self {
+        let parameters = engine.info().parameters.iter().map(|of| of.default);
+        let mut functions = HashMap::new();
+        if model.is_none() {
+            let pool = Arc::new(Pool::new(engine.clone()));
+            for (index, function) in engine.functions().iter().enumerate() {
+                functions.insert(function.name.clone(), (pool.clone(), index));
+            }
+        }
+        Model {
+            parameters: Mutex::new(parameters.collect()),
+            functions: Mutex::new(functions),
+            pool: Pool::new(engine),
+            model,
+        }
+    }
+
+    /// The engine of a function, which is derived when it is asked for first, and the index of the function in it.
+    fn asked(&self, py: Python<'_>, what: &str) -> PyResult<(Arc<Pool>, usize)> {
         let functions = || {
             self.functions
                 .lock()
@@ -401,14 +441,17 @@ impl Model {
         if let Some(found) = functions().get(what) {
             return Ok(found.clone());
         }
+        let Some(model) = &self.model else {
+            return Err(wrong(format!(
+                "{what} was not kept with these equations: keep it with the model, or load the description"
+            )));
+        };
         let derived = py.detach(|| {
             let mut config = Config::new();
             config.matrices(false).functions([what]);
-            config
-                .requests(&self.model, &self.model.name)
-                .map_err(wrong)?;
-            let engine = Engine::of(&self.model, &config).map_err(wrong)?;
-            PyResult::Ok(Arc::new(Pool::new(engine)))
+            config.requests(model, &model.name).map_err(wrong)?;
+            let engine = Engine::of(model, &config).map_err(wrong)?;
+            PyResult::Ok((Arc::new(Pool::new(engine)), 0))
         })?;
         functions().insert(what.to_owned(), derived.clone());
         Ok(derived)

@@ -9,6 +9,7 @@ mod comparing;
 mod continued;
 mod costs;
 mod degenerate;
+mod exported;
 mod formulas;
 mod functions;
 mod grazing;

@@ -8,6 +8,7 @@ mod corner;
 mod fixed_steps;
 mod joint_laws;
 mod joints;
+mod kept;
 mod memory_slopes;
 mod mirror;
 mod onset;
