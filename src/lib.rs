@@ -79,6 +79,7 @@ pub mod equations;
 pub mod evaluation;
 pub mod files;
 pub mod interrupt;
+pub mod modes;
 pub mod notation;
 pub mod orientation;
 pub mod parallel;

@@ -1,6 +1,6 @@
 //! Engines in files: the derived lists of a model, so that loading needs neither the description nor a derivation.
 //!
-//! A file is a line with the version, the SHA-256 of the rest, and the rest: [`Lists`] as
+//! A file is a line with the version and the length of the rest, the SHA-256 of the rest, and the rest: [`Lists`] as
 //! [postcard](https://postcard.jamesmunns.com/wire-format).
 
 use crate::model::{Engine, Error};
@@ -57,7 +57,7 @@ impl Engine {
     pub fn keep(&self) -> Vec<u8> {
         let lists = postcard::to_allocvec(self.lists())
             .unwrap_or_else(|error| unreachable!("lists are plain data: {error}"));
-        let mut content = format!("{HEAD}{VERSION}\n").into_bytes();
+        let mut content = format!("{HEAD}{VERSION} {}\n", lists.len()).into_bytes();
         content.extend(Sha256::digest(&lists));
         content.extend(lists);
         content
@@ -69,22 +69,49 @@ impl Engine {
     /// # Errors
     /// Another content, one of another version, a damaged one; a model with functions of the user, which need a compiler.
     pub fn of_kept(content: &[u8]) -> Result<Self, KeptError> {
-        let rest = content.strip_prefix(HEAD.as_bytes());
-        let rest = rest.ok_or(KeptError::Other)?;
-        let end = rest.iter().position(|&byte| byte == b'\n');
-        let (version, rest) = rest.split_at(end.ok_or(KeptError::Damaged)?);
-        if version != VERSION.as_bytes() {
-            return Err(KeptError::Version {
-                written_by: String::from_utf8_lossy(version).into_owned(),
-            });
+        match <[Self; 1]>::try_from(Self::all_of_kept(content)?) {
+            Ok([engine]) => Ok(engine),
+            Err(_) => Err(KeptError::Damaged),
         }
-        let (digest, lists) = rest[1..]
-            .split_at_checked(DIGEST)
-            .ok_or(KeptError::Damaged)?;
-        if digest != &Sha256::digest(lists)[..] {
-            return Err(KeptError::Damaged);
-        }
-        let lists: Lists = postcard::from_bytes(lists).map_err(|_| KeptError::Damaged)?;
-        Self::new(lists).map_err(KeptError::Engine)
     }
+
+    /// The engines in a file of several, one behind the other.
+    ///
+    /// # Errors
+    /// Those of [`of_kept`](Self::of_kept).
+    pub fn all_of_kept(mut content: &[u8]) -> Result<Vec<Self>, KeptError> {
+        let mut engines = Vec::new();
+        while !content.is_empty() || engines.is_empty() {
+            let lists;
+            (lists, content) = first(content)?;
+            engines.push(Self::new(lists).map_err(KeptError::Engine)?);
+        }
+        Ok(engines)
+    }
+}
+
+/// The lists at the beginning of a file, and what is behind them.
+fn first(content: &[u8]) -> Result<(Lists, &[u8]), KeptError> {
+    let rest = content.strip_prefix(HEAD.as_bytes());
+    let rest = rest.ok_or(KeptError::Other)?;
+    let end = rest.iter().position(|&byte| byte == b'\n');
+    let (line, rest) = rest.split_at(end.ok_or(KeptError::Damaged)?);
+    let line = String::from_utf8_lossy(line);
+    let (version, length) = line.split_once(' ').unwrap_or((&line, ""));
+    if version != VERSION {
+        return Err(KeptError::Version {
+            written_by: version.to_owned(),
+        });
+    }
+    let parts = || {
+        let (digest, rest) = rest[1..].split_at_checked(DIGEST)?;
+        let (lists, behind) = rest.split_at_checked(length.parse().ok()?)?;
+        let whole = digest == &Sha256::digest(lists)[..];
+        whole.then(|| {
+            postcard::from_bytes(lists)
+                .ok()
+                .map(|lists| (lists, behind))
+        })?
+    };
+    parts().ok_or(KeptError::Damaged)
 }

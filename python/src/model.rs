@@ -25,8 +25,8 @@ pub struct Model {
     /// The description; `None` where the engine was kept in a file.
     model: Option<model::Model>,
     pool: Pool,
-    /// The functions that were asked for, by name, each derived when it was asked for first, with their index in the engine.
-    functions: Mutex<HashMap<String, (Arc<Pool>, usize)>>,
+    /// The functions that were asked for, by name, each derived when it was asked for first.
+    functions: Mutex<HashMap<String, Arc<Pool>>>,
     /// The values of all parameters [SI].
     parameters: Mutex<Vec<f64>>,
 }
@@ -111,16 +111,16 @@ impl Model {
             if path.ends_with(KEPT) {
                 let content = std::fs::read(path);
                 let content = content.map_err(|error| wrong(format!("{path}: {error}")))?;
-                let engine = Engine::of_kept(&content);
-                let engine = engine.map_err(|error| wrong(format!("{path}: {error}")))?;
-                return Ok(Self::of(engine, None));
+                let engines = Engine::all_of_kept(&content);
+                let engines = engines.map_err(|error| wrong(format!("{path}: {error}")))?;
+                return Ok(Self::of(engines, None));
             }
             let model = match bryant::bundled::find(path) {
                 Some(bundled) => bryant::bundled::model(bundled).map_err(wrong)?,
                 None => bryant_generator::read(Path::new(path)).map_err(wrong)?.0,
             };
             let engine = Engine::of(&model, &Config::new()).map_err(wrong)?;
-            Ok(Self::of(engine, Some(model)))
+            Ok(Self::of(vec![engine], Some(model)))
         })
     }
 
@@ -130,11 +130,12 @@ impl Model {
             let Some(model) = &self.model else {
                 return Err(wrong("the equations are from a kept file: copy that"));
             };
-            let mut config = Config::new();
-            config.functions(functions);
-            config.requests(model, &model.name).map_err(wrong)?;
-            let engine = Engine::of(model, &config).map_err(wrong)?;
-            Ok(engine.keep())
+            // each function by itself, so that all have the bits that they have here
+            let mut content = self.pool.engine.keep();
+            for name in &functions {
+                content.extend(of_function(model, name)?.keep());
+            }
+            Ok(content)
         })
     }
 
@@ -201,7 +202,7 @@ impl Model {
             .functions
             .lock()
             .unwrap_or_else(PoisonError::into_inner);
-        functions.values().for_each(|(pool, _)| pool.forget());
+        functions.values().for_each(|pool| pool.forget());
         Ok(())
     }
 
@@ -267,10 +268,7 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let asked = match wanted(what) {
             Some(wanted) => (None, wanted),
-            None => {
-                let (pool, index) = self.asked(py, what)?;
-                (Some(pool), Wanted::Function(index))
-            }
+            None => (Some(self.asked(py, what)?), Wanted::Function(0)),
         };
         let (pool, wanted) = (asked.0.as_deref().unwrap_or(&self.pool), asked.1);
         let info = pool.engine.info();
@@ -322,8 +320,8 @@ impl Model {
 
     /// The names of the rows and columns of a function.
     fn names_of(&self, py: Python<'_>, what: &str) -> PyResult<(Vec<String>, Vec<String>)> {
-        let (asked, index) = self.asked(py, what)?;
-        let function = &asked.engine.functions()[index];
+        let asked = self.asked(py, what)?;
+        let function = &asked.engine.functions()[0];
         Ok((function.rows.clone(), function.columns.clone()))
     }
 
@@ -413,16 +411,20 @@ impl Model {
         names.iter().map(place).collect()
     }
 
-    /// A model at the default values of its parameters.
-    fn of(engine: Engine, model: Option<model::Model>) -> Self {
-        let parameters = engine.info().parameters.iter().map(|of| of.default);
+    /// A model at the default values of its parameters, by its engine, and those of functions.
+    fn of(engines: Vec<Engine>, model: Option<model::Model>) -> Self {
+        let mut engines = engines.into_iter();
+        let Some(engine) = engines.next() else {
+            unreachable!("a file has an engine or is refused")
+        };
         let mut functions = HashMap::new();
-        if model.is_none() {
-            let pool = Arc::new(Pool::new(engine.clone()));
-            for (index, function) in engine.functions().iter().enumerate() {
-                functions.insert(function.name.clone(), (pool.clone(), index));
+        for engine in engines {
+            for function in engine.functions() {
+                let pool = Arc::new(Pool::new(engine.clone()));
+                functions.insert(function.name.clone(), pool);
             }
         }
+        let parameters = engine.info().parameters.iter().map(|of| of.default);
         Model {
             parameters: Mutex::new(parameters.collect()),
             functions: Mutex::new(functions),
@@ -431,8 +433,8 @@ impl Model {
         }
     }
 
-    /// The engine of a function, which is derived when it is asked for first, and the index of the function in it.
-    fn asked(&self, py: Python<'_>, what: &str) -> PyResult<(Arc<Pool>, usize)> {
+    /// The engine of a function, which is derived when it is asked for first.
+    fn asked(&self, py: Python<'_>, what: &str) -> PyResult<Arc<Pool>> {
         let functions = || {
             self.functions
                 .lock()
@@ -446,16 +448,19 @@ impl Model {
                 "{what} was not kept with these equations: keep it with the model, or load the description"
             )));
         };
-        let derived = py.detach(|| {
-            let mut config = Config::new();
-            config.matrices(false).functions([what]);
-            config.requests(model, &model.name).map_err(wrong)?;
-            let engine = Engine::of(model, &config).map_err(wrong)?;
-            PyResult::Ok((Arc::new(Pool::new(engine)), 0))
-        })?;
+        let engine = py.detach(|| of_function(model, what))?;
+        let derived = Arc::new(Pool::new(engine));
         functions().insert(what.to_owned(), derived.clone());
         Ok(derived)
     }
+}
+
+/// The engine of one function.
+fn of_function(model: &model::Model, name: &str) -> PyResult<Engine> {
+    let mut config = Config::new();
+    config.matrices(false).functions([name]);
+    config.requests(model, &model.name).map_err(wrong)?;
+    Engine::of(model, &config).map_err(wrong)
 }
 
 /// The arrays of a call.

@@ -39,14 +39,14 @@ same outputs, bit for bit, as long as the model has no inputs. Inputs are held f
 set before a run, the inputs at any time. What the model has no name for is named after its kind: `parameter gravity` if there is an
 output gravity, too.
 
-An FMU carries one shared library for each platform that it runs on, libbryant_fmu.so, libbryant_fmu.dylib or bryant_fmu.dll, which
+An FMU carries one shared library for each platform that it runs on, libbryant_fmi.so, libbryant_fmi.dylib or bryant_fmi.dll, which
 lies beside this program or is named by --library. No compiler is needed.
 
 Examples:
   bryant export fmu child-seat
   bryant export fmu robot.urdf --fmi 3 -o robot.fmu
   bryant export fmu my.yaml --set belt_stiffness='40 kN' --tolerance 1e-8
-  bryant export fmu my.yaml --library linux/libbryant_fmu.so --library windows/bryant_fmu.dll")]
+  bryant export fmu my.yaml --library linux/libbryant_fmi.so --library windows/bryant_fmi.dll")]
 struct Fmu {
     /// Name of a bundled model, or path of a YAML or URDF file
     model: String,

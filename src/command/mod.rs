@@ -17,6 +17,7 @@ mod integration;
 mod merge;
 mod model_argument;
 mod models;
+mod modes;
 mod outputs;
 mod parameters;
 mod prepare;
@@ -59,6 +60,7 @@ Examples:
   bryant import robot.urdf -o robot.yaml             a robot's description of ROS as a model
   bryant export fmu my.yaml                          an FMU for Simulink, Dymola, OpenModelica
   bryant settle my.yaml -o rest.json                 a state of rest, to start runs from
+  bryant modes my.yaml --start rest.json             frequencies and damping about a state of rest
   bryant criteria TEST.mme --standard 'UN R94' --dummy 'Hybrid III 50M'
                                                      injury criteria beside the limits of a regulation
   bryant compare run.csv TEST.mme                    how well a run agrees with a measurement
@@ -97,6 +99,7 @@ enum Command {
     Import(import::Arguments),
     Export(export::Arguments),
     Settle(settle::Arguments),
+    Modes(modes::Arguments),
     Criteria(criteria::Arguments),
     Schema(schema::Arguments),
     Compare(compare::Arguments),
@@ -239,6 +242,7 @@ impl Cli {
             Command::Models(arguments) => arguments.execute(&mut terminal),
             Command::Schema(arguments) => arguments.execute(&mut terminal),
             Command::Settle(arguments) => arguments.execute(&mut terminal),
+            Command::Modes(arguments) => arguments.execute(&mut terminal),
             Command::Stability(arguments) => arguments.execute(&mut terminal),
             Command::Sweep(arguments) => arguments.execute(&mut terminal),
             Command::Merge(arguments) => arguments.execute(&mut terminal),

@@ -75,7 +75,8 @@ pub struct Arguments {
 }
 
 /// Standard gravity \[m/s²\].
-const G: f64 = bryant_runtime::response::STANDARD_GRAVITY;
+pub(super) use bryant_runtime::response::STANDARD_GRAVITY;
+const G: f64 = STANDARD_GRAVITY;
 
 fn share(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -334,8 +335,8 @@ fn text(
 }
 
 /// The model with additional outputs, which the search and its result need.
-struct Watched {
-    model: Model,
+pub(super) struct Watched {
+    pub model: Model,
     /// Names of contacts, belts, springs and bushings, each with the index of the first of its three outputs.
     forces: Vec<(String, usize)>,
     /// The index of the first output for elements, and the names of the elements. Each has two outputs: its
@@ -346,7 +347,8 @@ struct Watched {
 }
 
 impl Watched {
-    fn new(model: &Model) -> Self {
+    /// The model with outputs for each force and each element.
+    pub fn new(model: &Model) -> Self {
         let own = model.outputs.len();
         let mut watched = with_forces(model);
         let mut forces = Vec::new();
@@ -411,14 +413,15 @@ impl Watched {
         }
     }
 
-    fn outputs(&self, model: &(impl Dynamics<f64> + ?Sized), state: &[f64]) -> Vec<f64> {
+    /// All outputs at a state, at t = 0.
+    pub fn outputs(&self, model: &(impl Dynamics<f64> + ?Sized), state: &[f64]) -> Vec<f64> {
         let mut outputs = vec![0.0; self.model.outputs.len()];
         model.outputs(0.0, state, &mut outputs);
         outputs
     }
 
     /// The largest acceleration of a centre of gravity \[m/s²\], and the name of its element.
-    fn acceleration(&self, outputs: &[f64]) -> (f64, &str) {
+    pub fn acceleration(&self, outputs: &[f64]) -> (f64, &str) {
         let (first, names) = &self.elements;
         let mut worst = (0.0, names.first().map_or("", String::as_str));
         for (value, name) in outputs[*first..].iter().step_by(2).zip(names) {

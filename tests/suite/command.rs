@@ -19,6 +19,7 @@ mod last_screen;
 #[cfg(unix)]
 mod long;
 mod meshes;
+mod modes;
 mod people;
 mod pictures;
 mod polarity;

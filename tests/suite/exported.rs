@@ -24,9 +24,9 @@ fn content(path: &Path) -> (Vec<String>, String) {
 fn library() -> PathBuf {
     let folder = Path::new(env!("CARGO_BIN_EXE_bryant")).parent().unwrap();
     let name = match (cfg!(windows), cfg!(target_os = "macos")) {
-        (true, _) => "bryant_fmu.dll",
-        (_, true) => "libbryant_fmu.dylib",
-        _ => "libbryant_fmu.so",
+        (true, _) => "bryant_fmi.dll",
+        (_, true) => "libbryant_fmi.dylib",
+        _ => "libbryant_fmi.so",
     };
     folder.join("deps").join(name)
 }

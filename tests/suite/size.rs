@@ -13,6 +13,7 @@ const CRATES: [&str; 10] = [
     "generator",
     "runtime",
     "engine",
+    "fmu",
     "study",
     "signal",
     "picture",

@@ -59,7 +59,11 @@ run: { duration: 1, every: 0.1 }
         changed[place] ^= 1 << (place % 8);
         refused(&changed);
     }
-    assert_eq!(refused(&[&kept[..], b"x"].concat()), KeptError::Damaged);
+    assert_eq!(refused(&[&kept[..], b"x"].concat()), KeptError::Other);
+    // two, one behind the other, are two
+    let twice = kept.repeat(2);
+    assert_eq!(Engine::all_of_kept(&twice).unwrap().len(), 2);
+    assert_eq!(refused(&twice), KeptError::Damaged);
     assert_eq!(refused(text.as_bytes()), KeptError::Other);
     let line = kept.iter().position(|&byte| byte == b'\n').unwrap();
     let other = [b"bryant engine 0.0.1", &kept[line..]].concat();

@@ -70,9 +70,9 @@ const PLATFORMS: [Platform; 6] = [
 
 /// The name of the library of this platform.
 const OWN: &str = match (cfg!(windows), cfg!(target_os = "macos")) {
-    (true, _) => "bryant_fmu.dll",
-    (_, true) => "libbryant_fmu.dylib",
-    _ => "libbryant_fmu.so",
+    (true, _) => "bryant_fmi.dll",
+    (_, true) => "libbryant_fmi.dylib",
+    _ => "libbryant_fmi.so",
 };
 
 impl Library {
@@ -110,7 +110,7 @@ impl Library {
         let of = recognised(&content).filter(|_| has(b"fmi2DoStep") && has(b"fmi3DoStep"));
         let of = of.ok_or_else(|| {
             Error::Input(format!(
-                "{} is no library of FMUs\n  help: name the file {OWN} that `cargo build --release -p bryant-fmu` makes, or one of another platform",
+                "{} is no library of FMUs\n  help: name the file {OWN} that `cargo build --release -p bryant-fmi` makes, or one of another platform",
                 path.display()
             ))
         })?;
@@ -161,7 +161,7 @@ fn beside_program() -> Result<PathBuf, Error> {
     let found = places.into_iter().find(|place| place.is_file());
     found.ok_or_else(|| {
         Error::Input(format!(
-            "{OWN}, which an FMU carries, is not beside {}\n  help: in the sources, `cargo build --release -p bryant-fmu` makes it; name it by --library, or copy it there",
+            "{OWN}, which an FMU carries, is not beside {}\n  help: in the sources, `cargo build --release -p bryant-fmi` makes it; name it by --library, or copy it there",
             program.display()
         ))
     })

@@ -3,7 +3,7 @@
 #![expect(unsafe_code, reason = "the interface consists of C functions")]
 
 use crate::handle::{self, Handle, Status, call, refuse, string};
-use crate::instance::Instance;
+use bryant_fmu::Instance;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::path::PathBuf;
 

@@ -2,7 +2,7 @@
 
 #![expect(unsafe_code, reason = "the interface consists of C functions")]
 
-use crate::instance::{Instance, Message};
+use bryant_fmu::{Instance, Message};
 use std::ffi::{CStr, CString, c_char, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -1,0 +1,370 @@
+//! `bryant modes`: the small motions of a mechanism about a state of rest.
+
+use super::Error;
+use super::model_argument::find;
+use super::parameters::{parse_parameters, values_of};
+use super::prepare::prepare_model;
+use super::progress::Progress;
+use super::run::read_start;
+use super::settle::{STANDARD_GRAVITY, Watched};
+use super::terminal::Terminal;
+use crate::equations;
+use crate::modes::{self, Mode, NoModes, Number, hidden};
+use crate::table::{Cells, side_by_side};
+use bryant_engine::batch::{Rows, Wanted};
+use bryant_generator::Config;
+use bryant_runtime::{Info, StateKind};
+use clap::Args;
+use serde_json::{Value, json};
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// List the modes of a mechanism about a state of rest: frequencies, damping, shapes
+#[derive(Debug, Args)]
+#[command(after_long_help = "\
+The equations with all their forces are linearised exactly at the state, and the modes are those of the linear system. Nothing is left out: gyroscopic
+terms, damping, states of force laws. A force that holds or begins to act elsewhere counts as it is in this state.
+
+  frequency   |λ|/2π, that of the mode without its damping; a mode that does not oscillate has none
+  damping     -Re λ/|λ|, of the critical one; below 0 the mode grows
+  time        in which the motion falls, or grows, by a factor of e
+  moves       the shares of the kinetic energy, by velocity of the model
+
+--json has the shapes, too: an entry for each coordinate along the motion of its velocity, each velocity, and each state of a force law, as amplitude and
+phase in complex numbers; the largest is 1.
+
+Examples:
+  bryant modes robot-arm --start rest.json           about the state that `bryant settle robot-arm -o rest.json` found
+  bryant modes my.yaml                               about the start of runs, if the model rests there
+  bryant modes my.yaml --set stiffness='40 kN/m' --json > modes.json")]
+pub struct Arguments {
+    /// Name of a bundled model, or path of a YAML or URDF file
+    model: String,
+
+    /// State of rest in this file, which `bryant settle` wrote [default: the start of runs]
+    #[arg(long, value_name = "STATE.json")]
+    start: Option<PathBuf>,
+
+    /// Value of a parameter of the model, with its unit; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+
+    /// List this many modes at most, the slowest
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
+    most: Option<u64>,
+
+    /// Print the modes with their shapes as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// The acceleration of a centre of gravity up to which a state is one of rest \[m/s²\], as for `bryant settle`; and the
+/// angular velocity \[rad/s\].
+const AT_REST: (f64, f64) = (1e-3 * STANDARD_GRAVITY, 1e-3);
+
+/// A residual above this is worth a warning: rounding leaves less.
+const POOR: f64 = 1e-8;
+
+/// Velocities with smaller shares of the energy are not listed in the table, and no more than so many are.
+const SMALL: f64 = 0.05;
+const MANY: usize = 4;
+
+/// A mode with what people read.
+struct Shown<'a> {
+    mode: &'a Mode,
+    /// Shares of the kinetic energy, largest first, by velocity; for a mode without motion, sizes of states of force laws.
+    shares: Vec<(&'a str, f64)>,
+    /// True if it cannot be told from one that does not move.
+    free: bool,
+}
+
+impl Arguments {
+    /// Lists the modes.
+    pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
+        let found = find(&self.model)?;
+        found.tell(terminal);
+        let set = parse_parameters(&self.set, &found.scene)?;
+        let values = values_of(&found.model, &set);
+        let watched = Watched::new(&found.model);
+        let engine = prepare_model(&found, &watched.model, terminal)?;
+        let info = engine.info();
+        let mut model = engine.in_double();
+        model.set_parameters(&values);
+        if let Some(condition) = model.violated() {
+            return Err(Error::Input(format!(
+                "a parameter cannot have this value: {}",
+                info.conditions[condition]
+            )));
+        }
+        let (t, state) = match &self.start {
+            Some(path) => {
+                let read = read_start(path, &found.model, &engine, &set, f64::INFINITY)?;
+                for note in &read.notes {
+                    terminal.note(note);
+                }
+                (read.start.t, read.start.state)
+            }
+            None => {
+                let mut state = vec![0.0; info.state_length()];
+                model.initial_state(&mut state);
+                (0.0, state)
+            }
+        };
+        let outputs = watched.outputs(&*model, &state);
+        self.must_rest(info, &state, watched.acceleration(&outputs))?;
+
+        // the outputs have no part in the modes
+        let mut alone = found.model.clone();
+        alone.outputs.clear();
+        alone.normalize();
+        let mut config = Config::new();
+        config.functions(["linearisation"]);
+        config.requests(&alone, &self.model).map_err(Error::Model)?;
+        let progress = Progress::deriving(terminal, &alone.name);
+        let linear = equations::of_lists(config.lists(&alone), None).map_err(Error::system)?;
+        drop(progress);
+        let mut batch = linear.batch(1);
+        batch.set_parameters(&values).map_err(Error::input)?;
+        let (q, rest) = state.split_at(info.coordinates.len());
+        let (v, laws) = rest.split_at(info.velocities.len());
+        let rows = Rows {
+            time: t,
+            coordinates: q,
+            velocities: v,
+            states: laws,
+            ..Rows::default()
+        };
+        let mut evaluate = |wanted: Wanted| {
+            let mut results = vec![0.0; batch.length(wanted)];
+            let done = batch.evaluate(wanted, &rows, &mut results);
+            done.map(|()| results).map_err(Error::input)
+        };
+        let all = evaluate(Wanted::Function(0))?;
+        let mass = evaluate(Wanted::MassMatrix)?;
+        let function = &linear.functions()[0];
+        let (size, columns) = (function.rows.len(), function.columns.len());
+        let a: Vec<f64> = all
+            .chunks_exact(columns)
+            .flat_map(|row| &row[..size])
+            .copied()
+            .collect();
+        let found_modes = modes::modes(&a, size).map_err(|error| {
+            Error::failed(match error {
+                NoModes::NotFinite => {
+                    "the linearisation at this state has numbers that are not finite".to_owned()
+                }
+                NoModes::NotConverged => "the search for the modes did not converge".to_owned(),
+            })
+        })?;
+        let hidden = hidden(&found_modes);
+        let most = self.most.map_or(usize::MAX, |most| most as usize);
+        let shown: Vec<Shown<'_>> = found_modes
+            .iter()
+            .map(|mode| Shown {
+                shares: shares(mode, &mass, info),
+                free: mode.rate.norm() <= hidden,
+                mode,
+            })
+            .take(most)
+            .collect();
+        if let Some(worst) = found_modes
+            .iter()
+            .map(|mode| mode.residual)
+            .reduce(f64::max)
+            && worst > POOR
+        {
+            terminal.note(&format!(
+                "warning: shapes hold to {worst:.0e} only: modes nearly coincide"
+            ));
+        }
+        if self.json {
+            return terminal.print_json(&self.as_json(
+                &found.model.name,
+                t,
+                hidden,
+                &function.columns[..size],
+                &shown,
+            ));
+        }
+        terminal.print(&table(&shown, terminal.width()))?;
+        if shown.iter().any(|mode| mode.free) {
+            terminal.note(&format!(
+                "modes below {} Hz cannot be told from free motions beside the fastest mode",
+                digits(hidden / TAU)
+            ));
+        }
+        if shown
+            .iter()
+            .any(|mode| mode.mode.rate.re > 0.0 && !mode.free)
+        {
+            terminal.note("a mode grows: the state of rest is unstable");
+        }
+        Ok(())
+    }
+
+    /// Fails if the state is none of rest.
+    fn must_rest(
+        &self,
+        info: &Info,
+        state: &[f64],
+        (acceleration, element): (f64, &str),
+    ) -> Result<(), Error> {
+        let help = format!(
+            "help: `bryant settle {0} -o rest.json` finds a state of rest, and `bryant modes {0} --start rest.json` its modes",
+            self.model
+        );
+        // not a number is no rest either
+        if acceleration.is_nan() || acceleration > AT_REST.0 {
+            return Err(Error::Input(format!(
+                "this is no state of rest: the centre of gravity of \"{element}\" accelerates by {} g\n  {help}",
+                digits(acceleration / STANDARD_GRAVITY)
+            )));
+        }
+        let turning = (0..state.len())
+            .filter(|&index| info.kind(index) == StateKind::AngularVelocity)
+            .find(|&index| state[index].abs() > AT_REST.1);
+        match turning {
+            None => Ok(()),
+            Some(index) => Err(Error::Input(format!(
+                "this is no state of rest: {} is {:.3} rad/s\n  {help}",
+                info.state_name(index).unwrap_or_default(),
+                state[index]
+            ))),
+        }
+    }
+
+    fn as_json(
+        &self,
+        model: &str,
+        t: f64,
+        hidden: f64,
+        names: &[String],
+        shown: &[Shown<'_>],
+    ) -> Value {
+        let modes: Vec<Value> = shown
+            .iter()
+            .map(|one| {
+                let rate = one.mode.rate;
+                let shape = names.iter().zip(&one.mode.shape);
+                let shape: Vec<Value> = shape
+                    .map(|(name, entry)| json!({ "name": name, "re": entry.re, "im": entry.im }))
+                    .collect();
+                let shares: Vec<Value> = one
+                    .shares
+                    .iter()
+                    .map(|(name, share)| json!({ "name": name, "share": share }))
+                    .collect();
+                json!({
+                    "rate_per_s": { "re": rate.re, "im": rate.im },
+                    "frequency_Hz": (rate.im != 0.0).then_some(rate.norm() / TAU),
+                    "damping": (rate.norm() > 0.0).then_some(-rate.re / rate.norm()),
+                    "free": one.free,
+                    "residual": one.mode.residual,
+                    "moves": shares,
+                    "shape": shape,
+                })
+            })
+            .collect();
+        json!({ "model": model, "t_s": t, "free_below_Hz": hidden / TAU, "modes": modes })
+    }
+}
+
+/// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for each.
+fn shares<'a>(mode: &Mode, mass: &[f64], info: &'a Info) -> Vec<(&'a str, f64)> {
+    let count = info.velocities.len();
+    let (along, rest) = mode.shape.split_at(count);
+    let share = |i: usize| {
+        let momentum: Number = (0..count).map(|j| along[j] * mass[count * i + j]).sum();
+        (along[i].conj() * momentum).re.abs()
+    };
+    let mut shares: Vec<(&str, f64)> = (0..count).map(|i| (info.velocities[i], share(i))).collect();
+    let sum: f64 = shares.iter().map(|(_, share)| share).sum();
+    if sum == 0.0 {
+        // nothing moves: states of force laws, by their size
+        let laws = info.auxiliaries.iter().zip(&rest[count.min(rest.len())..]);
+        shares = laws.map(|(name, entry)| (*name, entry.norm())).collect();
+    } else {
+        shares.iter_mut().for_each(|(_, share)| *share /= sum);
+    }
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+    shares
+}
+
+/// Three digits.
+fn digits(value: f64) -> String {
+    let magnitude = libm::log10(value.abs()).floor() as i32;
+    match magnitude {
+        -4..=2 => format!("{value:.*}", (2 - magnitude) as usize),
+        3..=5 => format!("{value:.0}"),
+        _ => format!("{value:.2e}"),
+    }
+}
+
+/// The modes as aligned columns; those that are free, which come first, in one row.
+fn table(shown: &[Shown<'_>], width: Option<usize>) -> String {
+    let free = shown.iter().take_while(|one| one.free).count();
+    let skipped = free.saturating_sub(1);
+    let rows = &shown[skipped..];
+    let column = |text: &dyn Fn(&Shown<'_>) -> String| rows.iter().map(text).collect::<Vec<_>>();
+    let none = || "-".to_owned();
+    let numbers = (1 + skipped..=shown.len()).map(|number| match number == free && skipped > 0 {
+        true => format!("1 to {free}"),
+        false => number.to_string(),
+    });
+    let columns = [
+        Cells::of_words("mode", "", numbers.collect()),
+        Cells::of_words(
+            "frequency",
+            "Hz",
+            column(&|one| match one.mode.rate.im != 0.0 && !one.free {
+                true => digits(one.mode.rate.norm() / TAU),
+                false => none(),
+            }),
+        ),
+        Cells::of_words(
+            "damping",
+            "%",
+            column(&|one| match one.mode.rate.im != 0.0 && !one.free {
+                // rounding of what is not damped
+                true if one.mode.rate.re.abs() <= 1e-9 * one.mode.rate.norm() => "0".to_owned(),
+                true => digits(-100.0 * one.mode.rate.re / one.mode.rate.norm()),
+                false => none(),
+            }),
+        ),
+        Cells::of_words(
+            "time",
+            "s",
+            column(&|one| match one.mode.rate {
+                _ if one.free => "free".to_owned(),
+                rate if rate.re.abs() <= 1e-9 * rate.norm() => none(),
+                rate if rate.re > 0.0 => format!("{}, grows", digits(1.0 / rate.re)),
+                rate => digits(-1.0 / rate.re),
+            }),
+        ),
+        Cells::of_words(
+            "moves",
+            "",
+            column(&|one| {
+                let mut words = String::new();
+                // those that coincide share their motions
+                let shares = if one.free && skipped > 0 {
+                    &[][..]
+                } else {
+                    &one.shares[..]
+                };
+                for (name, share) in shares
+                    .iter()
+                    .filter(|(_, share)| *share >= SMALL)
+                    .take(MANY)
+                {
+                    let comma = if words.is_empty() { "" } else { ", " };
+                    let _ = write!(words, "{comma}{name} {:.0} %", 100.0 * share);
+                }
+                words
+            }),
+        )
+        .left_aligned(),
+    ];
+    side_by_side(&columns, width)
+}

@@ -1,0 +1,175 @@
+//! Modes of a linear system ẋ = A x: eigenvalues, and the motions that belong to them.
+//!
+//! Eigenvalues come from the real Schur form of A after balancing (Parlett and Reinsch 1969), eigenvectors by inverse iteration with a
+//! shift beside the eigenvalue, which also sharpens it by Rayleigh's quotient.
+
+use nalgebra::linalg::balancing::balance_parlett_reinsch;
+use nalgebra::{Complex, DMatrix, DVector};
+
+/// A complex number.
+pub type Number = Complex<f64>;
+
+/// A mode: x = Re(shape · e^(λ t)).
+#[derive(Clone, Debug)]
+pub struct Mode {
+    /// λ \[1/s\]; of a pair of conjugates the one with the positive imaginary part.
+    pub rate: Number,
+    /// The shape, as an entry for each of x; its largest entry is 1 where no weights say otherwise.
+    pub shape: Vec<Number>,
+    /// How well A x = λ x holds: the norm of the difference, by that of A and x, after balancing.
+    pub residual: f64,
+}
+
+/// Why there are no modes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoModes {
+    /// An entry of A is not finite.
+    NotFinite,
+    /// The iteration for the Schur form did not converge.
+    NotConverged,
+}
+
+/// Largest number of iterations for a Schur form.
+const ITERATIONS: usize = 100_000;
+
+/// The share of the largest |λ| below which rounding hides an eigenvalue: two that coincide at 0, as those of a free motion, are found
+/// about √ε from it.
+const HIDDEN: f64 = 64.0 * 1.5e-8;
+
+/// The modes of A, by rows, slowest first.
+///
+/// # Errors
+/// See [`NoModes`].
+pub fn modes(a: &[f64], size: usize) -> Result<Vec<Mode>, NoModes> {
+    if !a.iter().all(|entry| entry.is_finite()) {
+        return Err(NoModes::NotFinite);
+    }
+    let mut balanced = DMatrix::from_row_slice(size, size, a);
+    let scales = balance_parlett_reinsch(&mut balanced);
+    let schur = balanced.clone().try_schur(f64::EPSILON, ITERATIONS);
+    let eigenvalues = schur.ok_or(NoModes::NotConverged)?.complex_eigenvalues();
+    let norm = balanced.norm();
+    let complex = balanced.map(|entry| Number::new(entry, 0.0));
+    let mut modes: Vec<Mode> = eigenvalues
+        .iter()
+        // of a pair, one
+        .filter(|rate| rate.im >= 0.0)
+        .enumerate()
+        .map(|(index, &rate)| mode(&complex, rate, norm, &scales, index))
+        .collect();
+    modes.sort_by(|a, b| a.rate.norm().total_cmp(&b.rate.norm()));
+    Ok(modes)
+}
+
+fn mode(
+    a: &DMatrix<Number>,
+    found: Number,
+    norm: f64,
+    scales: &DVector<f64>,
+    index: usize,
+) -> Mode {
+    let size = a.nrows();
+    let identity = DMatrix::<Number>::identity(size, size);
+    // beside the eigenvalue, where the matrix is not singular
+    let beside = found + Number::new(f64::EPSILON * norm.max(f64::MIN_POSITIVE), 0.0);
+    let factors = (a - &identity * beside).lu();
+    // another beginning for each, so that equal eigenvalues get different shapes
+    let begin = |i: usize| ((i + 1) * (2 * index + 3) * 7919 % 101) as f64;
+    let mut x = DVector::from_fn(size, |i, _| Number::new(1.0 + begin(i), begin(i + size)));
+    x.unscale_mut(x.norm());
+    for _ in 0..3 {
+        let Some(next) = factors.solve(&x) else {
+            break;
+        };
+        let length = next.norm();
+        if !(length.is_finite() && length > 0.0) {
+            break;
+        }
+        x = next.unscale(length);
+    }
+    let image = a * &x;
+    let quotient = x.dotc(&image);
+    // where two coincide, the quotient is no better
+    let better = |rate: Number| (&image - &x * rate).norm();
+    let mut rate = match better(quotient) < better(found) {
+        true => quotient,
+        false => found,
+    };
+    if rate.im.abs() <= 1e-12 * rate.norm() {
+        rate.im = 0.0;
+    }
+    let residual = better(rate) / norm.max(f64::MIN_POSITIVE);
+    // back from the balanced coordinates
+    let mut shape: Vec<Number> = x
+        .iter()
+        .zip(scales.iter())
+        .map(|(x, scale)| x * *scale)
+        .collect();
+    let largest = shape.iter().copied().fold(Number::ZERO, |most, entry| {
+        match entry.norm() > most.norm() {
+            true => entry,
+            false => most,
+        }
+    });
+    if largest != Number::ZERO {
+        shape.iter_mut().for_each(|entry| *entry /= largest);
+    }
+    Mode {
+        rate,
+        shape,
+        residual,
+    }
+}
+
+/// The |λ| \[1/s\] below which the eigenvalues of these modes cannot be told from 0.
+pub fn hidden(modes: &[Mode]) -> f64 {
+    HIDDEN
+        * modes
+            .iter()
+            .map(|mode| mode.rate.norm())
+            .fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// [0 1; −ω² −2ζω]
+    #[test]
+    fn an_oscillator_has_its_frequency_and_damping() {
+        let (omega, zeta) = (30.0, 0.05);
+        let found = modes(&[0.0, 1.0, -omega * omega, -2.0 * zeta * omega], 2).unwrap();
+        assert_eq!(found.len(), 1);
+        let rate = found[0].rate;
+        assert!((rate.norm() - omega).abs() < 1e-12 * omega, "{rate}");
+        assert!((-rate.re / rate.norm() - zeta).abs() < 1e-13, "{rate}");
+        // v = λ q
+        let [q, v] = found[0].shape[..] else { panic!() };
+        assert!((v - rate * q).norm() < 1e-12, "{q} {v}");
+    }
+
+    #[test]
+    fn a_free_motion_is_hidden_and_an_unstable_one_grows() {
+        let free = modes(&[0.0, 1.0, 0.0, 0.0], 2).unwrap();
+        assert!(free.iter().all(|mode| mode.rate.norm() <= 1e-7), "{free:?}");
+        let falls = modes(&[0.0, 1.0, 9.0, 0.0], 2).unwrap();
+        let rates: Vec<f64> = falls.iter().map(|mode| mode.rate.re).collect();
+        assert!(
+            (rates[0].abs() - 3.0).abs() < 1e-14 && (rates[0] + rates[1]).abs() < 1e-14,
+            "{rates:?}"
+        );
+        assert_eq!(modes(&[f64::NAN], 1).unwrap_err(), NoModes::NotFinite);
+    }
+
+    /// Badly scaled: lengths in nanometres beside angles.
+    #[test]
+    fn scales_do_not_matter() {
+        let a = [0.0, 1e9, -4e-9, 0.0];
+        let found = modes(&a, 2).unwrap();
+        assert!(
+            (found[0].rate - Number::new(0.0, 2.0)).norm() < 1e-14,
+            "{found:?}"
+        );
+        assert!(found[0].residual < 1e-15);
+    }
+}
