@@ -36,6 +36,9 @@ const ITERATIONS: usize = 100_000;
 /// about √ε from it.
 const HIDDEN: f64 = 64.0 * 1.5e-8;
 
+/// The share of |λ| below which an imaginary part is rounding: two real eigenvalues that coincide are found about √ε apart.
+const COINCIDE: f64 = 1e-7;
+
 /// The modes of A, by rows, slowest first.
 ///
 /// # Errors
@@ -52,10 +55,15 @@ pub fn modes(a: &[f64], size: usize) -> Result<Vec<Mode>, NoModes> {
     let complex = balanced.map(|entry| Number::new(entry, 0.0));
     let mut modes: Vec<Mode> = eigenvalues
         .iter()
+        .map(|&rate| match rate.im.abs() <= COINCIDE * rate.norm() {
+            // one real rate, twice, as rounding splits it
+            true => Number::new(rate.re, 0.0),
+            false => rate,
+        })
         // of a pair, one
         .filter(|rate| rate.im >= 0.0)
         .enumerate()
-        .map(|(index, &rate)| mode(&complex, rate, norm, &scales, index))
+        .map(|(index, rate)| mode(&complex, rate, norm, &scales, index))
         .collect();
     modes.sort_by(|a, b| a.rate.norm().total_cmp(&b.rate.norm()));
     Ok(modes)
@@ -70,23 +78,16 @@ fn mode(
 ) -> Mode {
     let size = a.nrows();
     let identity = DMatrix::<Number>::identity(size, size);
-    // beside the eigenvalue, where the matrix is not singular
-    let beside = found + Number::new(f64::EPSILON * norm.max(f64::MIN_POSITIVE), 0.0);
-    let factors = (a - &identity * beside).lu();
     // another beginning for each, so that equal eigenvalues get different shapes
     let begin = |i: usize| ((i + 1) * (2 * index + 3) * 7919 % 101) as f64;
-    let mut x = DVector::from_fn(size, |i, _| Number::new(1.0 + begin(i), begin(i + size)));
-    x.unscale_mut(x.norm());
-    for _ in 0..3 {
-        let Some(next) = factors.solve(&x) else {
-            break;
-        };
-        let length = next.norm();
-        if !(length.is_finite() && length > 0.0) {
-            break;
-        }
-        x = next.unscale(length);
-    }
+    let begin = DVector::from_fn(size, |i, _| Number::new(1.0 + begin(i), begin(i + size)));
+    // beside the eigenvalue, where the matrix is not singular; further away if it is still
+    let near = [1.0, 1e2, 1e4].map(|times| times * f64::EPSILON * norm.max(f64::MIN_POSITIVE));
+    let shapes = near.iter().map(|distance| {
+        let beside = found + Number::new(*distance, 0.0);
+        inverse_iteration(&(a - &identity * beside), &begin)
+    });
+    let x = shapes.flatten().next().unwrap_or(begin);
     let image = a * &x;
     let quotient = x.dotc(&image);
     // where two coincide, the quotient is no better
@@ -119,6 +120,21 @@ fn mode(
         shape,
         residual,
     }
+}
+
+/// The vector of length 1 that a matrix shrinks most; `None` where the matrix is singular.
+fn inverse_iteration(a: &DMatrix<Number>, begin: &DVector<Number>) -> Option<DVector<Number>> {
+    let factors = a.clone().lu();
+    let mut x = begin.unscale(begin.norm());
+    for _ in 0..3 {
+        let next = factors.solve(&x)?;
+        let length = next.norm();
+        if !(length.is_finite() && length > 0.0) {
+            return None;
+        }
+        x = next.unscale(length);
+    }
+    Some(x)
 }
 
 /// The |λ| \[1/s\] below which the eigenvalues of these modes cannot be told from 0.
@@ -159,6 +175,24 @@ mod tests {
             "{rates:?}"
         );
         assert_eq!(modes(&[f64::NAN], 1).unwrap_err(), NoModes::NotFinite);
+    }
+
+    /// Two inverted pendulums: each rate twice, with two shapes.
+    #[test]
+    fn what_coincides_is_there_twice() {
+        let a = [
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+            [16.0, 0.0, 0.0, 0.0],
+            [0.0, 16.0, 0.0, 0.0],
+        ];
+        let found = modes(a.as_flattened(), 4).unwrap();
+        let mut rates: Vec<f64> = found.iter().map(|mode| mode.rate.re).collect();
+        rates.sort_by(f64::total_cmp);
+        for (rate, expected) in rates.iter().zip([-4.0, -4.0, 4.0, 4.0]) {
+            assert!((rate - expected).abs() < 1e-12, "{rates:?}");
+        }
+        assert!(found.iter().all(|mode| mode.residual < 1e-14), "{found:?}");
     }
 
     /// Badly scaled: lengths in nanometres beside angles.

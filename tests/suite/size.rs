@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates, and what belongs to the command but to no library.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "generator",
     "runtime",
     "engine",
