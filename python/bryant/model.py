@@ -3,8 +3,11 @@
 import json
 import os
 import tempfile
+from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _bryant
 from ._command import call, call_json
@@ -12,22 +15,21 @@ from .run import Run
 from .study import Study
 
 
-def load(model, **options):
+def load(model: str | os.PathLike[str], **options: Any) -> "Model":
     """Loads a model: a bundled one by name, a file in YAML or URDF by path, or a text of either.
 
     Options are those of `bryant import`, for a robot in URDF: base="free", stops=1e4, right_angles=True, uncouple=True,
     no_inputs=True, repair_inertias=True. A file that `Model.keep` wrote is read in a millisecond.
     Raises Error with every problem of the description, its place and what to do.
     """
-    path, folder = os.fspath(model), None
-    if "\n" in path or options:
-        folder = tempfile.TemporaryDirectory(prefix="bryant-")
-    if "\n" in path:
+    path = os.fspath(model)
+    folder = tempfile.TemporaryDirectory(prefix="bryant-") if "\n" in path or options else None
+    if folder and "\n" in path:
         ending = "urdf" if path.lstrip().startswith("<") else "yaml"
         text, path = path, os.path.join(folder.name, f"model.{ending}")
         with open(path, "w", encoding="utf-8") as file:
             file.write(text)
-    if options:
+    if folder and options:
         imported = os.path.join(folder.name, "imported.yaml")
         call("import", path, out=imported, **options)
         path = imported
@@ -53,7 +55,7 @@ class Named:
     def __getitem__(self, index):
         return self.names[index]
 
-    def index(self, name):
+    def index(self, name: str) -> int:
         """The column of a name."""
         try:
             return self.names.index(name)
@@ -73,7 +75,19 @@ class Model(_bryant.Model):
     States of the same model may be evaluated by several threads of Python at once; all give the same bits.
     """
 
-    def __new__(cls, path):
+    # names of the columns of q, v, z and m, of outputs and of inputs; the limits of inputs, a row each
+    coordinates: Named
+    velocities: Named
+    auxiliaries: Named
+    memory: Named
+    outputs_of: Named
+    inputs: Named
+    input_limits: NDArray
+    _path: str
+    _parameter_names: Named
+    _folder: tempfile.TemporaryDirectory | None
+
+    def __new__(cls, path: str) -> "Model":
         made = super().__new__(cls, path)
         made._path = path
         made.coordinates, made.velocities, made.auxiliaries, made.memory = map(Named, made.state)
@@ -91,8 +105,8 @@ class Model(_bryant.Model):
             f"{len(self.inputs)} inputs, {self.arithmetic}>"
         )
 
-    def keep(self, path, functions=()):
-        """Writes the derived equations into a file `path`.bryant, which `load` reads in a millisecond.
+    def keep(self, path: str | os.PathLike[str], functions: Iterable[str] = ()) -> None:
+        """Writes the derived equations into a file whose name ends in .bryant; `load` reads it in a millisecond.
 
         Of the functions of a robot those are in it that are named here, as "inverse_dynamics" or "jacobian(arm/hand)".
         Runs, studies and gradients need the description, and are not there. A kept file is a program: load only what you trust.
@@ -100,12 +114,12 @@ class Model(_bryant.Model):
         path = os.fspath(path)
         if not path.endswith(".bryant"):
             raise _bryant.Error(f"the name of a kept file ends in .bryant, and {path} does not")
-        content = super().keep(list(functions))
+        content = self.derived(list(functions))
         with open(path, "wb") as file:
             file.write(bytes(content))
 
     @property
-    def path(self):
+    def path(self) -> str:
         """Where the description is: a file, or the name of a bundled model."""
         if self._path.endswith(".bryant"):
             raise _bryant.Error(f"{self._path} has equations only: load the description for runs, studies and gradients")
@@ -114,12 +128,12 @@ class Model(_bryant.Model):
     # -- parameters
 
     @property
-    def parameters(self):
+    def parameters(self) -> dict[str, float]:
         """Parameters [SI], inputs among them, by name. Assign a dictionary to change some of them."""
         return dict(zip(self._parameter_names, self.values))
 
     @parameters.setter
-    def parameters(self, values):
+    def parameters(self, values: Mapping[str, float]) -> None:
         new = list(self.values)
         for name, value in values.items():
             new[self._parameter_names.index(name)] = float(value)
@@ -127,98 +141,100 @@ class Model(_bryant.Model):
 
     # -- states
 
-    def start(self):
+    def start(self) -> tuple[NDArray, NDArray]:
         """q and v with which a run begins."""
         q, v, _, _ = self.begin()
         return np.array(q), np.array(v)
 
-    def rates(self, q, v, u=None, **options):
+    def rates(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The rates of q, v and of the states of force laws."""
         return self.evaluate("rates", q, v, u, **options)
 
-    def mass_matrix(self, q, u=None, **options):
+    def mass_matrix(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """S [SI]: (n, n) for one state, (states, n, n) for many."""
         return self.evaluate("mass_matrix", q, None, u, **options)
 
-    def bias(self, q, v, u=None, **options):
+    def bias(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """−r_s: centrifugal, Coriolis and gyroscopic forces, without gravity, which is in `applied_forces`."""
         return -self.evaluate("velocity_forces", q, v, u, **options)
 
-    def applied_forces(self, q, v, u=None, **options):
+    def applied_forces(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """r_k: gravity, motors, joints, contacts, and all other forces, for each velocity."""
         return self.evaluate("applied_forces", q, v, u, **options)
 
-    def outputs(self, q, v, u=None, **options):
+    def outputs(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The outputs of the model, in the order of `outputs_of`."""
         return self.evaluate("outputs", q, v, u, **options)
 
-    def kinetic_energy(self, q, v, u=None, **options):
+    def kinetic_energy(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The kinetic energy [J]."""
         return self.evaluate("kinetic_energy", q, v, u, **options)
 
     # -- functions of a robot: derived when they are asked for first, which takes milliseconds
 
-    def inverse_dynamics(self, q, v, a, u=None, **options):
+    def inverse_dynamics(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """S a − r_s − r_g [N m, N]: what motors, springs and contacts have to provide together for the accelerations a."""
         return self.evaluate("inverse_dynamics", q, v, u, a=a, **options)
 
-    def gravity_forces(self, q, u=None, **options):
+    def gravity_forces(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """r_g [N m, N]: the generalised forces of all fields."""
         return self.evaluate("gravity_forces", q, None, u, **options)
 
-    def pose(self, frame, q, u=None, **options):
+    def pose(self, frame: str, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """Rotation from the axes of the frame to those of the world, and beside it its origin [m]: (3, 4). A frame is an
         element, a point with a name, or a link of a URDF: "tool0", "arm/hand"."""
         return self.evaluate(f"pose({frame})", q, None, u, **options)
 
-    def velocity(self, frame, q, v, u=None, **options):
+    def velocity(self, frame: str, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The velocity of the frame's origin [m/s] and its angular velocity [rad/s], in axes of the world: (6,)."""
         return self.evaluate(f"velocity({frame})", q, v, u, **options)
 
-    def acceleration(self, frame, q, v, a, u=None, **options):
+    def acceleration(self, frame: str, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The acceleration of the frame's origin [m/s²] and its angular acceleration [rad/s²], for the accelerations a."""
         return self.evaluate(f"acceleration({frame})", q, v, u, a=a, **options)
 
-    def jacobian(self, frame, q, u=None, **options):
+    def jacobian(self, frame: str, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """J: the velocity of the frame is J v, linear part first, in axes of the world: (6, n)."""
         return self.evaluate(f"jacobian({frame})", q, None, u, **options)
 
-    def bias_acceleration(self, frame, q, v, u=None, **options):
+    def bias_acceleration(self, frame: str, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The rate of J times v: the acceleration of the frame where a is 0."""
         return self.evaluate(f"bias_acceleration({frame})", q, v, u, **options)
 
-    def center_of_mass(self, q, u=None, **options):
+    def center_of_mass(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The centre of mass of all systems [m]."""
         return self.evaluate("center_of_mass", q, None, u, **options)
 
-    def centroidal_momentum(self, q, v, u=None, **options):
+    def centroidal_momentum(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The linear momentum [N s], and the angular momentum about the centre of mass [N m s]."""
         return self.evaluate("centroidal_momentum", q, v, u, **options)
 
-    def centroidal_matrix(self, q, u=None, **options):
+    def centroidal_matrix(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """A: the centroidal momentum is A v: (6, n)."""
         return self.evaluate("centroidal_matrix", q, None, u, **options)
 
-    def potential_energy(self, q, u=None, **options):
+    def potential_energy(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The potential energy in all fields [J]; 0 for a mass at the origin."""
         return self.evaluate("potential_energy", q, None, u, **options)
 
-    def regressor(self, q, v, a, u=None, **options):
+    def regressor(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """Y: inverse dynamics, but for armatures, is Y p, p being m, m c and J of each element: (n, 10 N)."""
         return self.evaluate("regressor", q, v, u, a=a, **options)
 
-    def inverse_dynamics_derivatives(self, q, v, a, u=None, **options):
+    def inverse_dynamics_derivatives(self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: ArrayLike | None = None, **options: Any) -> list[NDArray]:
         """∂τ/∂q and ∂τ/∂v, exact: (n, n) each. Columns by q are along the motion of each velocity: turns, for quaternions."""
         both = self.evaluate("inverse_dynamics_derivatives", q, v, u, a=a, **options)
         return np.split(both, 2, axis=-1)
 
-    def acceleration_derivatives(self, q, v, u=None, **options):
+    def acceleration_derivatives(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> tuple[NDArray, ...]:
         """v̇, ∂v̇/∂q, ∂v̇/∂v and S⁻¹, exact, with the forces of motors, springs and contacts constant."""
         n = len(self.velocities)
         all = self.evaluate("acceleration_derivatives", q, v, u, **options)
         return (all[..., 0], *np.split(all[..., 1:], [n, 2 * n], axis=-1))
 
-    def linearise(self, q, v, u=None, *, dt=None, **options):
+    def linearise(
+        self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, *, dt: float | None = None, **options: Any
+    ) -> tuple[NDArray, NDArray, NDArray, NDArray]:
         """A, B, C, D of the whole scene with its forces at a state, exact: δẋ = A δx + B δu, δy = C δx + D δu.
 
         x has the positions along the motion of each velocity, the velocities, and the states of force laws; u the inputs;
@@ -236,7 +252,23 @@ class Model(_bryant.Model):
 
     # -- motions
 
-    def rollout(self, q, v, u=None, *, dt, steps=None, parts=1, linear=False, outputs=False, states=None, t=0.0, vary=None, out=None, threads=1):
+    def rollout(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: ArrayLike | None = None,
+        *,
+        dt: float,
+        steps: int | None = None,
+        parts: int = 1,
+        linear: bool = False,
+        outputs: bool = False,
+        states: ArrayLike | None = None,
+        t: float = 0.0,
+        vary: list[str] | None = None,
+        out: NDArray | None = None,
+        threads: int = 1,
+    ) -> NDArray:
         """Steps of length `dt` [s] from one state or from many, by the classical Runge–Kutta method.
 
         u: (steps, inputs), or (states, steps, inputs): held over each step, or with `linear` going from one to the next,
@@ -259,7 +291,7 @@ class Model(_bryant.Model):
             raise ValueError("without inputs, the number of steps must be given")
         return self.march(q, v, dt, steps, u, states, t, parts, linear, outputs, vary, out, threads)
 
-    def run(self, set=None, *, quiet=True, **options):
+    def run(self, set: Mapping[str, Any] | None = None, *, quiet: bool = True, **options: Any) -> Run:
         """A run with error control, events and checks, as `bryant run` does it. Options are those of the command, with
         `_` for `-`: accuracy=1e-3, duration="80 ms", every="0.1 ms", method="rodas5", response=["HIC15 of head"],
         criteria="FMVSS 208, Hybrid III 50M".
@@ -268,11 +300,26 @@ class Model(_bryant.Model):
         """
         return Run._of(self, dict(set=self._changed(set), **options))
 
-    def simulation(self, state=None, *, t=0.0, tolerance=1e-7):
+    def simulation(
+        self, state: ArrayLike | tuple[ArrayLike, ArrayLike] | None = None, *, t: float = 0.0, tolerance: float = 1e-7
+    ) -> "Simulation":
         """A run that is advanced from time to time, with inputs that change between: see Simulation."""
         return Simulation(self, state, t, tolerance)
 
-    def sweep(self, parameters, *, responses, runs=None, design="sobol", seed=0, fixed=None, accuracy=None, duration=None, sampling=None, **options):
+    def sweep(
+        self,
+        parameters: Mapping[str, Any],
+        *,
+        responses: Iterable[Any],
+        runs: int | None = None,
+        design: str = "sobol",
+        seed: int = 0,
+        fixed: Mapping[str, Any] | None = None,
+        accuracy: float | None = None,
+        duration: Any = None,
+        sampling: Any = None,
+        **options: Any,
+    ) -> Study:
         """A study: many runs with other parameters, as `bryant sweep` does it.
 
         parameters: {"slack": (0, 0.06)}, {"slack": ("0 mm", "60 mm")}, or a dictionary as in a study file;
@@ -282,7 +329,9 @@ class Model(_bryant.Model):
         run = {"accuracy": accuracy, "duration": duration, "sampling": sampling}
         return Study._of(self, parameters, responses, runs, design, seed, fixed, run, options)
 
-    def gradient(self, of, wrt=None, *, set=None, **options):
+    def gradient(
+        self, of: str | Iterable[str], wrt: str | Iterable[str] | None = None, *, set: Mapping[str, Any] | None = None, **options: Any
+    ) -> dict[str, dict[str, float]]:
         """Derivatives of responses of a run with respect to parameters, exact: {response: {parameter: derivative}} [SI]."""
         of = [of] if isinstance(of, str) else list(of)
         wrt = None if wrt is None else ",".join([wrt] if isinstance(wrt, str) else wrt)
@@ -291,13 +340,19 @@ class Model(_bryant.Model):
             one["response"]: {of["name"]: of["derivative"] for of in one["parameters"]} for one in found["responses"]
         }
 
-    def settle(self, **options):
+    def settle(self, **options: Any) -> dict[str, Any]:
         """A state of rest, as `bryant settle` finds it: a dictionary of what it prints."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "rest.json")
             call("settle", self.path, output=path, set=self._changed(None), **options)
             with open(path, encoding="utf-8") as file:
                 return json.load(file)
+
+    def modes(self, start: str | os.PathLike[str] | None = None, **options: Any) -> list[dict[str, Any]]:
+        """The modes about a state of rest, as `bryant modes` finds them, slowest first: frequency_Hz, damping, rate_per_s,
+        the shares of the kinetic energy, shapes. start: the file of a state, otherwise that in which runs start."""
+        found, _ = call_json("modes", self.path, start=start, set=self._changed(None), **options)
+        return found["modes"]
 
     def _changed(self, new):
         """Values for commands: those of the model that are not the defaults, and these."""
@@ -349,7 +404,7 @@ class Simulation:
         n = len(self.model.coordinates)
         self.q, self.v = self.state[:n], self.state[n : n + len(self.model.velocities)]
 
-    def advance(self, t, u=None):
+    def advance(self, t: float, u: ArrayLike | None = None) -> NDArray:
         """Sets the inputs, if any are given, and advances to the time t [s]. Returns the outputs then.
 
         Inputs out of their limits are refused with an Error, and nothing has changed."""
@@ -359,7 +414,7 @@ class Simulation:
     def __getitem__(self, output):
         return self.outputs[self.model.outputs_of.index(output)]
 
-    def finish(self):
+    def finish(self) -> None:
         """Ends the run. Raises Error if it cannot be trusted: energy that is missing, contacts that were missed."""
         doubts = self._run.finish()
         if doubts:

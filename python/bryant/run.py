@@ -4,8 +4,10 @@ import json
 import os
 import tempfile
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _bryant
 from ._command import call, clean
@@ -45,7 +47,7 @@ class Run(Mapping):
             raise
         return cls(model, options, json.loads(output), messages)
 
-    def __getitem__(self, name):
+    def __getitem__(self, name: str) -> NDArray:
         try:
             return self._columns[name]
         except KeyError:
@@ -57,25 +59,25 @@ class Run(Mapping):
     def __len__(self):
         return len(self._columns)
 
-    def table(self):
+    def table(self) -> dict[str, NDArray]:
         """{"time": array, output: array, …}"""
         return {"time": self.time, **self._columns}
 
-    def to_pandas(self):
+    def to_pandas(self) -> Any:
         """A data frame with the time as its index."""
         import pandas
 
         return pandas.DataFrame(self._columns, index=pandas.Index(self.time, name="time"))
 
-    def report(self, path, **options):
+    def report(self, path: str | os.PathLike[str], **options: Any) -> None:
         """Writes the report of this run: a page of HTML. The run is computed again, with the same result."""
         self._files(report=os.fspath(path), **options)
 
-    def animation(self, path):
+    def animation(self, path: str | os.PathLike[str]) -> None:
         """Writes the motion as glTF (.glb)."""
         self._files(animation=os.fspath(path))
 
-    def picture(self):
+    def picture(self) -> str:
         """The motion as SVG."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "motion.svg")

@@ -125,7 +125,7 @@ impl Model {
     }
 
     /// The content of a file with the derived equations, and these functions.
-    fn keep(&self, py: Python<'_>, functions: Vec<String>) -> PyResult<Vec<u8>> {
+    fn derived(&self, py: Python<'_>, functions: Vec<String>) -> PyResult<Vec<u8>> {
         py.detach(|| {
             let Some(model) = &self.model else {
                 return Err(wrong("the equations are from a kept file: copy that"));
