@@ -210,7 +210,7 @@ const OF_OTHERS: [&str; 5] = [
     "--seed",
 ];
 
-/// The options of each subcommand, from its help, and the words of its help.
+/// The options of each command, from its help and those of the commands below it, and the words of these.
 fn helps() -> BTreeMap<String, BTreeSet<String>> {
     let options = |text: &str| -> BTreeSet<String> {
         let words = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '-');
@@ -219,22 +219,22 @@ fn helps() -> BTreeMap<String, BTreeSet<String>> {
             .map(str::to_owned)
             .collect()
     };
-    let (_, all) = call(root(), "bryant --help");
-    let lines = all
-        .out
-        .lines()
-        .skip_while(|line| *line != "Commands:")
-        .skip(1);
-    let lines = lines.take_while(|line| !line.is_empty());
-    let names = lines.filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next());
-    names
-        .map(|name| {
-            (
-                name.to_owned(),
-                options(&call(root(), &format!("bryant {name} --help")).1.out),
-            )
-        })
-        .collect()
+    // the commands that a help lists
+    let names = |help: &str| -> Vec<String> {
+        let lines = help.lines().skip_while(|line| *line != "Commands:").skip(1);
+        let lines = lines.take_while(|line| !line.is_empty());
+        let names = lines.filter_map(|line| line.strip_prefix("  ")?.split_whitespace().next());
+        names.map(str::to_owned).collect()
+    };
+    let help = |command: &str| call(root(), &format!("bryant {command} --help")).1.out;
+    let of_command = |name: String| {
+        let own = help(&name);
+        let below = names(&own).into_iter().filter(|of| of != "help");
+        let below = below.flat_map(|of| options(&help(&format!("{name} {of}"))));
+        let all = options(&own).into_iter().chain(below).collect();
+        (name, all)
+    };
+    names(&help("")).into_iter().map(of_command).collect()
 }
 
 /// The options that a command line gives.
@@ -305,6 +305,7 @@ fn commands() -> Found {
                         "run"
                             | "check"
                             | "settle"
+                            | "modes"
                             | "gradient"
                             | "accuracy"
                             | "effects"
