@@ -129,14 +129,9 @@ impl Shape for NoConstant {
         })
     }
 
+    // a constant is refused with the rest of what its place means
     fn check(at: At<'_>, problems: &Problems) {
-        match &at.node.kind {
-            Kind::Scalar { .. } if at.node.article() == "a number" => problems.add(at.problem(
-                "here stands a number, but a curve is needed",
-                "write the name of a curve, or a line through zero: `{ points: [[-1, -40], [1, 40]], extrapolate: linear }`",
-            )),
-            _ => Function::check(at, problems),
-        }
+        Function::check(at, problems);
     }
 
     fn read(value: &Value) -> Result<Self, Misfit> {
