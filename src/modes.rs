@@ -39,6 +39,9 @@ const HIDDEN: f64 = 64.0 * 1.5e-8;
 /// The share of |λ| below which an imaginary part is rounding: two real eigenvalues that coincide are found about √ε apart.
 const COINCIDE: f64 = 1e-7;
 
+/// The |λ| \[1/s\] below which nothing moves: a factor of e in thirty years.
+const STILL: f64 = 1e-9;
+
 /// The modes of A, by rows, slowest first.
 ///
 /// # Errors
@@ -139,11 +142,8 @@ fn inverse_iteration(a: &DMatrix<Number>, begin: &DVector<Number>) -> Option<DVe
 
 /// The |λ| \[1/s\] below which the eigenvalues of these modes cannot be told from 0.
 pub fn hidden(modes: &[Mode]) -> f64 {
-    HIDDEN
-        * modes
-            .iter()
-            .map(|mode| mode.rate.norm())
-            .fold(0.0, f64::max)
+    let rates = modes.iter().map(|mode| mode.rate.norm());
+    (HIDDEN * rates.fold(0.0, f64::max)).max(STILL)
 }
 
 #[cfg(test)]

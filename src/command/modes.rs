@@ -63,6 +63,9 @@ pub struct Arguments {
 /// angular velocity \[rad/s\].
 const AT_REST: (f64, f64) = (1e-3 * STANDARD_GRAVITY, 1e-3);
 
+/// The velocity above which a state of rest is one that moves along \[m/s\].
+const MOVING: f64 = 1e-3;
+
 /// A residual above this is worth a warning: rounding leaves less.
 const POOR: f64 = 1e-8;
 
@@ -113,6 +116,15 @@ impl Arguments {
         };
         let outputs = watched.outputs(&*model, &state);
         self.must_rest(info, &state, watched.acceleration(&outputs))?;
+        let moving = (0..state.len()).filter(|&index| info.kind(index) == StateKind::Velocity);
+        if let Some(speed) = moving.map(|index| state[index].abs()).reduce(f64::max)
+            && speed > MOVING
+        {
+            terminal.note(&format!(
+                "the state moves at up to {} m/s: the modes are those of an observer who moves along, with the forces of this instant",
+                digits(speed)
+            ));
+        }
 
         // the outputs have no part in the modes
         let mut alone = found.model.clone();
@@ -126,6 +138,10 @@ impl Arguments {
         drop(progress);
         let mut batch = linear.batch(1);
         batch.set_parameters(&values).map_err(Error::input)?;
+        // without outputs a model may have fewer memories
+        let state = named_as(linear.info(), info, &state).ok_or_else(|| {
+            Error::failed("the model without its outputs has another state".to_owned())
+        })?;
         let (q, rest) = state.split_at(info.coordinates.len());
         let (v, laws) = rest.split_at(info.velocities.len());
         let rows = Rows {
@@ -268,6 +284,17 @@ impl Arguments {
             .collect();
         json!({ "model": model, "t_s": t, "free_below_Hz": hidden / TAU, "modes": modes })
     }
+}
+
+/// The state of another model that has the entries of `of` by name and kind; `None` if one is missing.
+fn named_as(of: &Info, info: &Info, state: &[f64]) -> Option<Vec<f64>> {
+    let entry = |index: usize| {
+        let (name, kind) = (of.state_name(index), of.kind(index));
+        let mut all = 0..info.state_length();
+        let found = all.find(|&i| info.state_name(i) == name && info.kind(i) == kind)?;
+        Some(state[found])
+    };
+    (0..of.state_length()).map(entry).collect()
 }
 
 /// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for each.

@@ -132,6 +132,37 @@ fn a_rod_swings_both_ways_and_falls_from_above() {
 }
 
 #[test]
+fn a_body_in_free_flight_has_free_modes_alone() {
+    let folder = tempdir().unwrap();
+    let text = "\
+model: stone
+dimension: 2
+systems: [{ name: s, elements: [{ name: stone, mass: 2, cg: [0, 0], inertia: 1 }], start: { velocity: [3, 0] } }]
+run: { duration: 1, every: 0.1 }
+";
+    let modes = found(folder.path(), text, &[]);
+    assert_eq!(modes.len(), 6);
+    assert!(modes.iter().all(|mode| mode["free"] == true), "{modes:#?}");
+    let (table, said) = call(folder.path(), &["modes", "model.yaml"], 0);
+    assert!(
+        table.contains("1 to 6") && !said.contains("unstable"),
+        "{table}{said}"
+    );
+    assert!(said.contains("moves at up to 3.00 m/s"), "{said}");
+}
+
+#[test]
+fn memory_of_an_output_is_no_part_of_the_modes() {
+    let folder = tempdir().unwrap();
+    // the output alone keeps the switch
+    let text = CARTS.replace(
+        "run: {",
+        "switches: [{ switch: far, when: { of: s/a, what: displacement, component: x, above: 1 m } }]\noutputs: [{ name: far, of: switch far, what: time }]\nrun: {",
+    );
+    assert_eq!(found(folder.path(), &text, &[]).len(), 3);
+}
+
+#[test]
 fn what_does_not_rest_has_no_modes() {
     let folder = tempdir().unwrap();
     let folder = folder.path();
