@@ -14,7 +14,7 @@ pub type Number = Complex<f64>;
 pub struct Mode {
     /// λ \[1/s\]; of a pair of conjugates the one with the positive imaginary part.
     pub rate: Number,
-    /// The shape, as an entry for each of x; its largest entry is 1 where no weights say otherwise.
+    /// The shape, an entry for each of x in its unit, scaled so that the largest is 1.
     pub shape: Vec<Number>,
     /// How well A x = λ x holds: the norm of the difference, by that of A and x, after balancing.
     pub residual: f64,
@@ -33,7 +33,7 @@ pub enum NoModes {
 const ITERATIONS: usize = 100_000;
 
 /// The share of the largest |λ| below which rounding hides an eigenvalue: two that coincide at 0, as those of a free motion, are found
-/// about √ε from it.
+/// about √ε = 1.5e-8 from it, times a factor that grows with the size of A: 64 is a margin.
 const HIDDEN: f64 = 64.0 * 1.5e-8;
 
 /// The share of |λ| below which an imaginary part is rounding: two real eigenvalues that coincide are found about √ε apart.

@@ -66,7 +66,7 @@ const AT_REST: (f64, f64) = (1e-3 * STANDARD_GRAVITY, 1e-3);
 /// The velocity above which a state of rest is one that moves along \[m/s\].
 const MOVING: f64 = 1e-3;
 
-/// A residual above this is worth a warning: rounding leaves less.
+/// A residual above this is worth a warning: half of the digits are gone, and rounding alone leaves far less.
 const POOR: f64 = 1e-8;
 
 /// Velocities with smaller shares of the energy are not listed in the table, and no more than so many are.
@@ -114,7 +114,7 @@ impl Arguments {
                 (0.0, state)
             }
         };
-        let outputs = watched.outputs(&*model, &state);
+        let outputs = watched.outputs(&*model, t, &state);
         self.must_rest(info, &state, watched.acceleration(&outputs))?;
         let moving = (0..state.len()).filter(|&index| info.kind(index) == StateKind::Velocity);
         if let Some(speed) = moving.map(|index| state[index].abs()).reduce(f64::max)
@@ -297,7 +297,8 @@ fn named_as(of: &Info, info: &Info, state: &[f64]) -> Option<Vec<f64>> {
     (0..of.state_length()).map(entry).collect()
 }
 
-/// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for each.
+/// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for each; a
+/// share that is negative by them counts by its size.
 fn shares<'a>(mode: &Mode, mass: &[f64], info: &'a Info) -> Vec<(&'a str, f64)> {
     let count = info.velocities.len();
     let (along, rest) = mode.shape.split_at(count);

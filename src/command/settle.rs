@@ -139,7 +139,7 @@ impl Arguments {
             &start,
             wanted,
             &mut |state| {
-                let outputs = watched.outputs(&*model, state);
+                let outputs = watched.outputs(&*model, 0.0, state);
                 for (name, force) in watched.rests_on(&outputs) {
                     match carried.iter_mut().find(|(one, _)| *one == name) {
                         Some((_, most)) => *most = most.max(force),
@@ -158,7 +158,7 @@ impl Arguments {
                 "the model does not rest yet, and nothing was written".to_owned(),
             ));
         }
-        let outputs = watched.outputs(&*model, &settled.state);
+        let outputs = watched.outputs(&*model, 0.0, &settled.state);
         let (_, worst) = watched.acceleration(&outputs);
         let rests = watched.rests_on(&outputs);
         let found_at = Place {
@@ -413,10 +413,15 @@ impl Watched {
         }
     }
 
-    /// All outputs at a state, at t = 0.
-    pub fn outputs(&self, model: &(impl Dynamics<f64> + ?Sized), state: &[f64]) -> Vec<f64> {
+    /// All outputs at a time \[s\] and a state.
+    pub fn outputs(
+        &self,
+        model: &(impl Dynamics<f64> + ?Sized),
+        t: f64,
+        state: &[f64],
+    ) -> Vec<f64> {
         let mut outputs = vec![0.0; self.model.outputs.len()];
-        model.outputs(0.0, state, &mut outputs);
+        model.outputs(t, state, &mut outputs);
         outputs
     }
 

@@ -194,6 +194,19 @@ run("export", "fmu", "child-seat", "--step", "1 ms", "--set", "lap_slack=20 mm",
 result = fmpy.simulate_fmu(path, output=names[1:])
 assert all(found[name] == value for row, found in zip(rows, result) for name, value in zip(names, row))
 
+# from a state in the middle of a run
+state = str(folder / "state.json")
+run("run", "child-seat", "--no-verify", "--no-files", "--duration", "60 ms", "--final-state", state)
+names, rows = table("child-seat", "--start", state)
+path = str(folder / "started.fmu")
+run("export", "fmu", "child-seat", "--start", state, "-o", path)
+started = Slave(path, start=0.06, stop=0.16)
+assert rows[0][0] == 0.06 and started.get(*names[1:]) == rows[0][1:]
+for row in rows[1:]:
+    started.step(row[0] - started.t)
+    started.t = row[0]
+    assert started.get(*names[1:]) == row[1:], row[0]
+
 # what cannot be trusted is said at the end
 path = str(folder / "coarse.fmu")
 run("export", "fmu", "child-seat", "--step", "10 ms", "-o", path)

@@ -163,6 +163,34 @@ fn memory_of_an_output_is_no_part_of_the_modes() {
 }
 
 #[test]
+fn a_load_that_begins_later_ends_the_rest() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    let text = CARTS.replace(
+        "run: {",
+        "  - { load: push, on: s/c, force: [{ points: [[0, 0], [0.1, 0], [0.2, 50]] }, 0] }\nrun: {",
+    );
+    assert_eq!(found(folder, &text, &[]).len(), 3);
+    // the same state, at the time of the load
+    let run = [
+        "run",
+        "model.yaml",
+        "--no-files",
+        "--duration",
+        "0.1 s",
+        "--final-state",
+        "s.json",
+    ];
+    call(folder, &run, 0);
+    let state = std::fs::read_to_string(folder.join("s.json")).unwrap();
+    let later = state.replace("\"time\": 0.1", "\"time\": 0.2");
+    assert_ne!(later, state);
+    std::fs::write(folder.join("s.json"), later).unwrap();
+    let (_, said) = call(folder, &["modes", "model.yaml", "--start", "s.json"], 2);
+    assert!(said.contains("no state of rest"), "{said}");
+}
+
+#[test]
 fn what_does_not_rest_has_no_modes() {
     let folder = tempdir().unwrap();
     let folder = folder.path();
