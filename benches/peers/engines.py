@@ -16,6 +16,8 @@ import states
 
 HERE = pathlib.Path(__file__).resolve().parent
 FLAGS = ["-O3", "-march=native", "-DNDEBUG"]
+# gcc -O3 takes time with the square of a function's length: above this many instructions its code is compiled by -O1.
+MOST_FOR_O3 = 20_000
 PINOCCHIO = states.Relative(scalar_last=True, body_velocity=True)
 MUJOCO = states.Relative(scalar_last=False, body_velocity=False)
 
@@ -64,6 +66,10 @@ class Ours:
         command = [self.program, "accelerations", tree["name"], self.column]
         return Measurement(_run(command, rows), lambda _, row: row)
 
+    def function(self, robot, name, rows):
+        command = [self.program, "function", robot["folder"], robot["name"], name, self.column]
+        return Measurement(_run(command, rows), lambda _, row: row)
+
     def fall(self, tree, row, duration, step, method="rk4"):
         command = [self.program, "fall", duration, step, self.column, method]
         return Measurement(_run(command, [row]), lambda _, row: row)
@@ -79,6 +85,10 @@ class Peer:
         given = [self.relative.state(tree, row) for row in rows]
         output = _run(self.command(tree, "accelerations"), given)
         return Measurement(output, lambda i, row: self.relative.accelerations(tree, rows[i], row))
+
+    def function(self, robot, name, rows):
+        given = [self.relative.with_accelerations(robot, row) for row in rows]
+        return Measurement(_run(self.of_function(robot, name), given), lambda _, row: row)
 
     def fall(self, tree, row, duration, step, method="rk4"):
         assert method in self.methods
@@ -228,6 +238,20 @@ class Aba(Pinocchio):
         return [self.program, what, self.tree(tree)]
 
 
+class Functions(Pinocchio):
+    """Functions over numbers."""
+
+    name = "Pinocchio"
+
+    def __init__(self, folder):
+        super().__init__(folder)
+        source = HERE / "programs" / "functions.cpp"
+        self.program = _build(folder, "g++", [source], [*FLAGS, *self.flags], self.basis)
+
+    def of_function(self, robot, name):
+        return [self.program, name, self.tree(robot)]
+
+
 class Casadi(Pinocchio):
     """The same algorithm over CasADi's symbols, shared by cse, written as C and compiled.
 
@@ -250,12 +274,27 @@ class Casadi(Pinocchio):
             self.programs[name] = self._generate(tree)
         return [self.programs[name], what]
 
+    def of_function(self, robot, name):
+        key = f"{robot['name']} {name}"
+        if key not in self.programs:
+            source = f"{robot['name']}-{name}.c"
+            said = self._written(robot, source, [name])
+            self.operations[key] = said["operations"]
+            level = "-O3" if said["operations"] < MOST_FOR_O3 else "-O1"
+            flags = [level, *FLAGS[1:], *(f"-D{key.upper()}={said[key]}" for key in ["nq", "nv", "width"])]
+            self.programs[key] = _build(self.folder, "gcc", [self.folder / source, HERE / "programs" / "function.c"], flags)
+        return [self.programs[key]]
+
+    def _written(self, tree, source, what):
+        """Writes the C of a model; returns what the generator says of it."""
+        command = [str(self.generator.resolve()), str(self.tree(tree).resolve()), source, *what]
+        done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=self.folder)
+        return json.loads(done.stdout)
+
     def _generate(self, tree):
         name = tree["name"]
         source, fall = f"{name}.c", ["rate"] if name == "dummy15" else []
-        command = [str(self.generator.resolve()), str(self.tree(tree).resolve()), source, *fall]
-        done = subprocess.run(command, capture_output=True, text=True, check=True, cwd=self.folder)
-        said = json.loads(done.stdout)
+        said = self._written(tree, source, fall)
         self.operations[name] = said["operations"]
         flags = [*FLAGS, f"-DNQ={said['nq']}", f"-DNV={said['nv']}"]
         if fall:

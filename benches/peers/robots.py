@@ -28,6 +28,9 @@ ROBOTS = {
     "talos": ("talos_data/robots/talos_reduced.urdf", True, None),
 }
 RIGHT_ANGLES = 1e-3
+FUNCTIONS = ["inverse_dynamics", "inverse_dynamics_derivatives", "acceleration_derivatives"]
+# How many times as fast as Pinocchio's library one state has to be, and states in lanes.
+GOALS = [3, 15]
 
 
 def main():
@@ -35,6 +38,8 @@ def main():
         return prepare(pathlib.Path(sys.argv[2]))
     arguments = parse()
     arguments.work.mkdir(parents=True, exist_ok=True)
+    if arguments.functions is not None:
+        return compare_functions(arguments)
     ours = [engines.Ours("bryant", arguments.ours)]
     ours += [engines.Ours("bryant, fused", arguments.ours, "1"), engines.Ours("bryant, lanes", arguments.ours, "widest")]
     peers = [engines.Casadi(arguments.work), engines.Aba(arguments.work), engines.Mujoco(arguments.work)]
@@ -72,12 +77,73 @@ def main():
         sys.exit("these differ where they must not: " + "; ".join(wrong))
 
 
+def compare_functions(arguments):
+    """Functions of a robot: the machine code of the engine beside Pinocchio's library and the code of its algorithms by CasADi."""
+    ours = [engines.Ours("bryant", arguments.ours, "f64"), engines.Ours("bryant, lanes", arguments.ours, "widest")]
+    casadi = engines.Casadi(arguments.work)
+    peers = [casadi, engines.Functions(arguments.work)]
+    for peer in peers:
+        peer.relative = Relative(peer.relative)
+    columns, sections, notes, wrong, missed = ours + peers, [], [], [], []
+    for function in arguments.functions or FUNCTIONS:
+        rows = []
+        for name in arguments.models or ROBOTS:
+            robot = read(arguments.robots, name, arguments.ours)
+            sample = random(robot, arguments.states, arguments.seed)
+            given = np.random.default_rng(arguments.seed + 1).normal(size=(len(sample), velocities(robot)))
+            sample = np.hstack([sample, given])
+            rounds = [[column.function(robot, function, sample) for column in columns] for _ in range(arguments.rounds)]
+            found = [joints_of(robot, measured.rows, of_bryant=k < len(ours)) for k, measured in enumerate(rounds[0])]
+            cells = []
+            for k, column in enumerate(columns):
+                apart = compare.difference(found[k], found[0])
+                cells.append((compare.median(turn[k] for turn in rounds), apart, 0.0))
+                if not apart <= compare.AGREE:
+                    wrong.append(f"{column.name}: {function} of {name}, by {apart:.0e}")
+            rows.append((name, cells))
+            for cell, goal, column in zip(cells, GOALS, ours):
+                if cells[-1][0] < goal * cell[0]:
+                    missed.append(f"{column.name}: {function} of {name} is {cells[-1][0] / cell[0]:.1f} times as fast as Pinocchio, and not {goal}")
+            compare.progress(f"{function} of {name}: " + ", ".join(f"{cell[0]:.0f}" for cell in cells) + " ns")
+        gains = [(name, [(cells[-1][0] / cell[0],) for cell in cells]) for name, cells in rows]
+        of_casadi = [(name, [(cells[len(ours)][0] / cell[0],) for cell in cells]) for name, cells in rows]
+        sections += [
+            (f"{function}, ns per evaluation, medians", compare.table(columns, rows, lambda cell, _: compare.time(cell), "robot")),
+            (f"{function}: as many times as fast as Pinocchio (goals: {GOALS[0]}, in lanes {GOALS[1]})", compare.table(columns, gains, lambda cell, _: f"{cell[0]:.1f}", "robot")),
+            (f"{function}: as many times as fast as CasADi's code", compare.table(columns, of_casadi, lambda cell, _: f"{cell[0]:.1f}", "robot")),
+            (f"{function}: largest difference from bryant, of the largest number", compare.table(columns, rows, lambda cell, _: compare.share(cell[1]), "robot")),
+        ]
+    counted = ", ".join(f"{name} {count}" for name, count in casadi.operations.items())
+    notes.append(f"CasADi's instructions: {counted}.")
+    notes.append("Goals missed: " + ("none." if not missed else "; ".join(missed) + "."))
+    compare.report(arguments, notes, sections)
+    if wrong:
+        sys.exit("these differ where they must not: " + "; ".join(wrong))
+
+
+def velocities(robot):
+    return len(robot["places"]) + (6 if robot["free"] else 0)
+
+
+def joints_of(robot, rows, of_bryant):
+    """The entries of matrices whose rows and columns belong to joints, in one order for all engines: what the base adds is in other axes there."""
+    n, base = velocities(robot), 6 if robot["free"] else 0
+    first = len(robot["places"]) + (7 if robot["free"] else 0)
+    order = np.array(robot["places"])[:, 1] - first if of_bryant else np.arange(base, n)
+    matrices = rows.reshape(len(rows), n, -1)
+    width = matrices.shape[2]
+    before = width % n if width > 1 else 1
+    columns = [*range(before), *(before + n * block + j for block in range((width - before) // n) for j in order)]
+    return matrices[:, order][:, :, columns].reshape(len(rows), -1)
+
+
 def parse():
     parser = argparse.ArgumentParser(description="Compares this project with Pinocchio and MuJoCo on robots.")
     parser.add_argument("--ours", required=True, type=pathlib.Path, help="the program of ours/, built with ROBOTS")
     parser.add_argument("--robots", required=True, type=pathlib.Path, help="folder of `prepare`")
     parser.add_argument("--work", required=True, type=pathlib.Path, help="folder for what is generated and compiled")
     parser.add_argument("--markdown", type=pathlib.Path, help="where to write the tables as Markdown")
+    parser.add_argument("--functions", nargs="*", choices=FUNCTIONS, help="these functions instead of accelerations; all, if none is named")
     parser.add_argument("--models", nargs="*", help="only these")
     parser.add_argument("--states", type=int, default=16, help="states for each robot")
     parser.add_argument("--seed", type=int, default=1)
@@ -145,7 +211,7 @@ def read(folder, name, program):
         })
         if not first:
             places.append([plain.index(clean(joint)), plain.index(clean(f"{joint}-rate"))])
-    return {"name": name, "free": free, "joints": joints, "places": places, "gravity": [0.0, 0.0, -9.81]}
+    return {"name": name, "folder": folder, "free": free, "joints": joints, "places": places, "gravity": [0.0, 0.0, -9.81]}
 
 
 def clean(name):
@@ -196,6 +262,20 @@ class Relative:
             v = [*(rotation.T @ velocity if self.of.body_velocity else velocity), *spin]
         places = np.array(robot["places"])
         return np.concatenate([q, row[places[:, 0]], v, row[places[:, 1]]])
+
+    def with_accelerations(self, robot, row):
+        """A state that is followed by accelerations."""
+        n = velocities(robot)
+        state, given = row[:-n], row[-n:]
+        a = []
+        if robot["free"]:
+            rotation, velocity, spin = self.base(robot, state)
+            linear = given[:3]
+            if self.of.body_velocity:
+                linear = rotation.T @ linear - np.cross(spin, rotation.T @ velocity)
+            a = [*linear, *(rotation.T @ given[3:6])]
+        first = len(robot["places"]) + (7 if robot["free"] else 0)
+        return np.concatenate([self.state(robot, state), a, given[np.array(robot["places"])[:, 1] - first]])
 
     def accelerations(self, robot, row, found):
         first = len(robot["places"]) + (7 if robot["free"] else 0)

@@ -1,10 +1,10 @@
 //! Engines in files: the derived lists of a model, so that loading needs neither the description nor a derivation.
 //!
-//! A file is a line with the version and the length of the rest, the SHA-256 of the rest, and the rest: [`Lists`] as
+//! A file is a line with the version, the form of lists and the length of the rest, the SHA-256 of the rest, and the rest: [`Lists`] as
 //! [postcard](https://postcard.jamesmunns.com/wire-format).
 
 use crate::model::{Engine, Error};
-use bryant_generator::program::Lists;
+use bryant_generator::program::{FORM, Lists};
 use sha2::{Digest, Sha256};
 
 /// The first line of a file, without the version.
@@ -22,7 +22,8 @@ const DIGEST: usize = 32;
 pub enum KeptError {
     /// It does not begin as [`Engine::keep`] writes it.
     Other,
-    /// It was written by another version of this program.
+    /// It was written by another version of this program, or by another build of this version, whose lists may have
+    /// another form.
     Version {
         /// The version.
         written_by: String,
@@ -37,6 +38,10 @@ impl std::fmt::Display for KeptError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             KeptError::Other => write!(f, "this is no kept engine"),
+            KeptError::Version { written_by } if written_by == VERSION => write!(
+                f,
+                "the engine was kept by another build of version {VERSION}: keep it again from its model"
+            ),
             KeptError::Version { written_by } => write!(
                 f,
                 "the engine was kept by version {written_by}, and this is {VERSION}: keep it again from its model"
@@ -57,7 +62,7 @@ impl Engine {
     pub fn keep(&self) -> Vec<u8> {
         let lists = postcard::to_allocvec(self.lists())
             .unwrap_or_else(|error| unreachable!("lists are plain data: {error}"));
-        let mut content = format!("{HEAD}{VERSION} {}\n", lists.len()).into_bytes();
+        let mut content = format!("{HEAD}{VERSION} {FORM:016x} {}\n", lists.len()).into_bytes();
         content.extend(Sha256::digest(&lists));
         content.extend(lists);
         content
@@ -97,8 +102,10 @@ fn first(content: &[u8]) -> Result<(Lists, &[u8]), KeptError> {
     let end = rest.iter().position(|&byte| byte == b'\n');
     let (line, rest) = rest.split_at(end.ok_or(KeptError::Damaged)?);
     let line = String::from_utf8_lossy(line);
-    let (version, length) = line.split_once(' ').unwrap_or((&line, ""));
-    if version != VERSION {
+    let mut words = line.split(' ');
+    let mut word = || words.next().unwrap_or_default();
+    let (version, form, length) = (word(), word(), word());
+    if version != VERSION || form != format!("{FORM:016x}") {
         return Err(KeptError::Version {
             written_by: version.to_owned(),
         });

@@ -3,7 +3,7 @@
 use crate::kept::KeptError;
 use crate::model::{Engine, Error};
 use bryant_generator::Config;
-use bryant_generator::diagnostic::Diagnostics;
+use bryant_generator::diagnostic::{Diagnostic, Diagnostics};
 use bryant_generator::model::Model;
 use std::io;
 use std::path::Path;
@@ -51,12 +51,19 @@ impl From<KeptError> for LoadError {
 }
 
 impl Engine {
-    /// The engine of a file, YAML or URDF, with S, r_s and r_k.
+    /// The engine of a file: YAML or URDF, with S, r_s and r_k, or an engine that was [kept](Self::keep), whose file name
+    /// ends in `.bryant`.
     ///
     /// # Errors
-    /// All problems of the description; a force that is a function of the user, which needs a compiler.
+    /// All problems of the description; a force that is a function of the user, which needs a compiler; a kept engine
+    /// that is damaged or of another version.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
-        let (model, _) = bryant_generator::read(path.as_ref())?;
+        let path = path.as_ref();
+        if path.extension().is_some_and(|ending| ending == "bryant") {
+            let content = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+            return Ok(Self::of_kept(&content)?);
+        }
+        let (model, _) = bryant_generator::read(path)?;
         Self::of(&model, &Config::new())
     }
 
@@ -77,4 +84,15 @@ impl Engine {
     pub fn of(model: &Model, options: &Config) -> Result<Self, LoadError> {
         Ok(Self::new(options.lists(model))?)
     }
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> LoadError {
+    let problem = Diagnostic::of_file(
+        path.display().to_string(),
+        format!("it cannot be read: {error}"),
+        "give the path of a file that can be read",
+    );
+    LoadError::Description(Diagnostics {
+        problems: vec![problem],
+    })
 }

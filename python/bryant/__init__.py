@@ -10,8 +10,8 @@ All arrays are of doubles in SI units; names and units of their columns are in t
 
 from ._bryant import VERSION as __version__
 from ._bryant import Error
-from .model import Model, Simulation, load
+from .model import Contacts, Model, Simulation, load
 from .run import Run
 from .study import Study
 
-__all__ = ["Error", "Model", "Run", "Simulation", "Study", "__version__", "load"]
+__all__ = ["Contacts", "Error", "Model", "Run", "Simulation", "Study", "__version__", "load"]

@@ -4,7 +4,7 @@ import json
 import os
 import tempfile
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +13,20 @@ from . import _bryant
 from ._command import call, call_json
 from .run import Run
 from .study import Study
+
+
+class Contacts(NamedTuple):
+    """Where surfaces touch, or may: a row for each contact, and for each body that an airbag meets."""
+
+    names: list[str]
+    gap: NDArray
+    """Positive while the surfaces are apart, negative while they overlap [m]: (contacts,)."""
+    place: NDArray
+    """Where the force acts; while the surfaces are apart, half-way between the nearest points [m]: (contacts, 3)."""
+    normal: NDArray
+    """From the second body to the first, which has the contact's `ellipsoid`: (contacts, 3)."""
+    force: NDArray
+    """On the first body [N]: (contacts, 3)."""
 
 
 def load(model: str | os.PathLike[str], **options: Any) -> "Model":
@@ -212,6 +226,12 @@ class Model(_bryant.Model):
     def centroidal_matrix(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """A: the centroidal momentum is A v: (6, n)."""
         return self.evaluate("centroidal_matrix", q, None, u, **options)
+
+    def contacts(self, q: ArrayLike, v: ArrayLike, u: ArrayLike | None = None, **options: Any) -> Contacts:
+        """Gaps, places, normals and forces of all contacts and airbags, in axes of the world."""
+        all = self.evaluate("contacts", q, v, u, **options)
+        names, _ = self.names_of("contacts")
+        return Contacts(names, all[..., 0], *(all[..., k : k + 3] for k in (1, 4, 7)))
 
     def potential_energy(self, q: ArrayLike, u: ArrayLike | None = None, **options: Any) -> NDArray:
         """The potential energy in all fields [J]; 0 for a mass at the origin."""

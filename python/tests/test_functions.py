@@ -133,3 +133,27 @@ def test_what_is_not_there_is_refused(arm):
         arm.pose("hnd", arm.start()[0])
     with pytest.raises(bryant.Error, match="there is no function"):
         arm.evaluate("inverse_dynamic", *arm.start())
+
+
+def test_contacts(arm):
+    ball = bryant.load("""\
+model: ball
+dimension: 3
+systems: [{ name: ball, reference: free, elements: [{ name: body, mass: 1, cg: [0, 0, 0], inertia: [1, 1, 1] }], start: { position: [0, 0, 0.4] } }]
+forces:
+  - { contact: ground, ellipsoid: { on: ball/body, center: [0, 0, 0], semi_axes: [0.5, 0.5, 0.5] }, plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1] }, stiffness: 1000 }
+  - { contact: wall, ellipsoid: { on: ball/body, center: [0, 0, 0], semi_axes: [0.5, 0.5, 0.5] }, plane: { on: frame, at: [2, 0, 0], normal: [-1, 0, 0] }, stiffness: 1000 }
+run: { duration: 1, every: 0.1 }
+""")
+    q, v = ball.start()
+    found = ball.contacts(q, v)
+    assert found.names == ["ground", "wall"]
+    assert np.allclose(found.gap, [-0.1, 1.5])
+    assert np.allclose(found.place, [[0, 0, -0.1], [0.5, 0, 0.4]])
+    assert np.allclose(found.normal, [[0, 0, 1], [-1, 0, 0]])
+    assert np.allclose(found.force, [[0, 0, 100], [0, 0, 0]])
+    many = ball.contacts(np.array([q, q, q]), np.array([v, v, v]))
+    assert many.force.shape == (3, 2, 3) and many.gap.shape == (3, 2)
+    q, v = states(arm, 4)
+    none = arm.contacts(q, v)
+    assert none.names == [] and none.gap.shape == (4, 0) and none.force.shape == (4, 0, 3)

@@ -1,6 +1,7 @@
 //! The functions that are asked for by name: identities on every bundled model, numbers of Pinocchio, and the same bits from every target.
 
 mod bits;
+mod contacts;
 mod derivatives;
 mod identities;
 mod pinocchio;
@@ -14,6 +15,7 @@ use bryant_generator::dynamics::functions::FUNCTIONS;
 use bryant_generator::model::Model;
 use bryant_runtime::Real;
 use bryant_runtime::real::Form;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A stand-in for the functions of a user: identities hold with any forces.
@@ -42,6 +44,20 @@ fn all(frames: &[String]) -> Vec<String> {
         };
     let always = FUNCTIONS.iter().filter(|of| !of.may_be_impossible());
     always.flat_map(of).collect()
+}
+
+/// The models in these folders, in the order of their paths.
+fn models(folders: &[&str]) -> Vec<Model> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut files: Vec<PathBuf> = Vec::new();
+    for folder in folders {
+        let entries = std::fs::read_dir(root.join(folder)).expect("a folder");
+        let paths = entries.map(|entry| entry.expect("an entry").path());
+        files.extend(paths.filter(|path| path.extension().is_some_and(|e| e == "yaml")));
+    }
+    files.sort();
+    let read = |file: &PathBuf| bryant_generator::read(file).unwrap_or_else(|e| panic!("{e}"));
+    files.iter().map(|file| read(file).0).collect()
 }
 
 /// The engine of a model with these functions.

@@ -8,8 +8,10 @@
 use bryant_generator::Config;
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::{Dimension, FieldComponent, Model, Number, Reference};
-use bryant_generator::urdf::{Base, Options, import};
 use std::path::Path;
+
+#[path = "src/robots.rs"]
+mod robots;
 
 const MODELS: [&str; 5] = [
     "../models/planar9.yaml",
@@ -17,15 +19,6 @@ const MODELS: [&str; 5] = [
     "../../../models/dummy15.yaml",
     "../models/chain30.yaml",
     "../../../tests/models/large/chain100.yaml",
-];
-
-/// URDF files in the folder `ROBOTS`, and what their bases do.
-const ROBOTS: [(&str, Base); 5] = [
-    ("panda", Base::Fixed),
-    ("ur5", Base::Fixed),
-    ("hyq", Base::Free),
-    ("anymal", Base::Free),
-    ("talos", Base::Free),
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -47,15 +40,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if let Ok(folder) = std::env::var("ROBOTS") {
         let mut config = Config::new();
         config.matrices(false);
-        for (name, base) in ROBOTS {
+        for (name, base) in robots::ROBOTS {
             let urdf = Path::new(&folder).join(name).with_extension("urdf");
             println!("cargo::rerun-if-changed={}", urdf.display());
-            let text = std::fs::read_to_string(&urdf)?;
-            let options = Options {
-                base,
-                ..Options::default()
-            };
-            let imported = import(name, &text, &options)?;
+            let imported = robots::read(Path::new(&folder), name, base)?;
             let yaml = Path::new(&out).join(name).with_extension("yaml");
             std::fs::write(&yaml, imported.yaml)?;
             config.model(yaml);

@@ -66,8 +66,33 @@ run: { duration: 1, every: 0.1 }
     assert_eq!(refused(&twice), KeptError::Damaged);
     assert_eq!(refused(text.as_bytes()), KeptError::Other);
     let line = kept.iter().position(|&byte| byte == b'\n').unwrap();
+    // another build of this version, which may write lists in another form
+    let mut words: Vec<&str> = std::str::from_utf8(&kept[..line])
+        .unwrap()
+        .split(' ')
+        .collect();
+    words[3] = "0123456789abcdef";
+    let other = [words.join(" ").as_bytes(), &kept[line..]].concat();
+    let error = refused(&other).to_string();
+    assert!(error.contains("another build"), "{error}");
     let other = [b"bryant engine 0.0.1", &kept[line..]].concat();
     let error = refused(&other);
     assert!(matches!(error, KeptError::Version { .. }), "{error:?}");
     assert!(error.to_string().contains("0.0.1"), "{error}");
+}
+
+#[test]
+fn a_file_is_loaded_by_its_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.bryant");
+    let missing = Engine::load(&path).unwrap_err().to_string();
+    assert!(missing.contains("cannot be read"), "{missing}");
+    let engine = Engine::load("../models/robot-arm.yaml").unwrap();
+    std::fs::write(&path, engine.keep()).unwrap();
+    assert!(Engine::load(&path).unwrap().lists() == engine.lists());
+    std::fs::write(&path, "model: arm").unwrap();
+    assert!(matches!(
+        Engine::load(&path),
+        Err(LoadError::Kept(KeptError::Other))
+    ));
 }

@@ -1,7 +1,7 @@
 //! The names of effects, and the keys that call for them.
 
 use super::Effect;
-use crate::model::{ElementId, Model};
+use crate::model::{Body, Model};
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
@@ -47,7 +47,7 @@ impl Effect {
             | Effect::GyroscopicMoment(id)
             | Effect::Armature(id)
             | Effect::Coupling(id) => {
-                format!("element {}", path(model, id))
+                format!("element {}", model.name_of(Body::Element(id)))
             }
             Effect::Force { force }
             | Effect::Term { force, .. }
@@ -84,10 +84,4 @@ impl Effect {
         };
         vec![key, String::new()]
     }
-}
-
-/// `system/element`
-fn path(model: &Model, id: ElementId) -> String {
-    let system = &model.systems[id.system];
-    format!("{}/{}", system.name, system.elements[id.element].name)
 }

@@ -20,7 +20,7 @@ pub fn summary(model: &Model) -> Vec<String> {
             | Effect::Coupling(id))
                 if effect == of(id) =>
             {
-                Some(path(model, id))
+                Some(model.name_of(Body::Element(id)))
             }
             _ => None,
         });
@@ -85,11 +85,7 @@ fn of_force(model: &Model, force: usize) -> String {
     let (mut bodies, mut terms) = (Vec::new(), Vec::new());
     for field in kind.fields(model.dimension) {
         match field {
-            Field::Body(Body::Frame) => bodies.push("frame".to_owned()),
-            Field::Body(Body::Vehicle(vehicle)) => {
-                bodies.push(model.vehicles[vehicle].name.clone());
-            }
-            Field::Body(Body::Element(id)) => bodies.push(path(model, id)),
+            Field::Body(body) => bodies.push(model.name_of(body)),
             Field::Number(..) => {}
             Field::Term(term, part) => {
                 if part.is_in() {
@@ -134,9 +130,4 @@ fn by_reason(entries: &[Entry]) -> Vec<String> {
 
 fn names<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.collect::<Vec<_>>().join(", ")
-}
-
-fn path(model: &Model, id: ElementId) -> String {
-    let system = &model.systems[id.system];
-    format!("{}/{}", system.name, system.elements[id.element].name)
 }

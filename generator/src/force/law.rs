@@ -56,6 +56,11 @@ pub trait Measures<'g> {
         Vec::new()
     }
 
+    /// Where surfaces push each other, or may. The expressions are made when they are asked for.
+    fn contact_points(&self) -> Vec<ContactPoint<'g>> {
+        Vec::new()
+    }
+
     /// A quantity of the law.
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>>;
 }
@@ -65,6 +70,20 @@ impl<'g> Measures<'g> for () {
     fn value(&self, _: &dyn OfLaw) -> Option<Value<'g>> {
         None
     }
+}
+
+/// A place where two surfaces push each other, or may.
+pub struct ContactPoint<'g> {
+    /// Name for people: "seat", "bag on head".
+    pub name: String,
+    /// Positive while the surfaces are apart, negative while they overlap \[m\].
+    pub gap: Expr<'g>,
+    /// The point where the force acts, in absolute axes; while the surfaces are apart, where they are nearest \[m\].
+    pub place: Vec3<'g>,
+    /// Unit vector from the second body to the first, in absolute axes.
+    pub normal: Vec3<'g>,
+    /// The force on the first body, in absolute axes \[N\].
+    pub force: Vec3<'g>,
 }
 
 /// The value of a quantity of a law.

@@ -15,7 +15,7 @@ pub mod wrenches;
 
 use crate::motion::numbers::time;
 pub use events::{Acts, Events};
-pub use law::{Equations, Measures, Setting, Value};
+pub use law::{ContactPoint, Equations, Measures, Setting, Value};
 pub use states::{LawState, NEVER, States};
 pub use work::{Product, Work};
 pub use wrenches::{Wrench, Wrenches};

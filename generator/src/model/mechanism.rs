@@ -1,5 +1,6 @@
 //! The model as a whole.
 
+use super::body::Body;
 use super::curve::Curve;
 use super::dimension::{Coordinates, Dimension};
 use super::force::Force;
@@ -85,6 +86,18 @@ pub struct Run {
 }
 
 impl Model {
+    /// The name of a body, as `on` has it: "arm/hand", a vehicle, "frame".
+    pub fn name_of(&self, body: Body) -> String {
+        match body {
+            Body::Frame => "frame".to_owned(),
+            Body::Vehicle(index) => self.vehicles[index].name.clone(),
+            Body::Element(id) => {
+                let system = &self.systems[id.system];
+                format!("{}/{}", system.name, system.elements[id.element].name)
+            }
+        }
+    }
+
     /// The unit in which an output is shown.
     pub fn unit_of(&self, output: &Output) -> Unit {
         let own = self.units.own.iter().find(|(name, _)| *name == output.name);

@@ -11,7 +11,8 @@
 //! | `formula` | the operations of a statement, independent of the written form |
 //! | `lower`, `assemble` | statements as a [`List`], methods as [`Lists`] |
 //! | `join` | several lists evaluated together |
-//! | `facts`, `breakpoints`, `about` | facts that need no evaluation |
+//! | `facts`, `breakpoints` | facts that need no evaluation |
+//! | `form` | whether another build has the same form of lists |
 //!
 //! A [`List`] is one method of a model as a list of operations, in the order of their evaluation. It is made from the
 //! same schedule as the Rust text and has exactly the same operations, so that all targets give the same bits.
@@ -21,6 +22,7 @@
 mod assemble;
 mod breakpoints;
 mod facts;
+mod form;
 pub(crate) mod formula;
 pub(crate) mod hoist;
 mod inline;
@@ -45,6 +47,7 @@ pub use crate::method::{Method, Start};
 pub(crate) use assemble::neighbours;
 pub use assemble::{counted_lists, lists};
 pub use facts::{Adjustable, Column, Facts, Kind, Watched};
+pub use form::FORM;
 pub use join::Methods;
 pub use list::{Input, List, Operation, Value};
 pub use lists::{Curve, Function, Lists, Routine};

@@ -100,6 +100,7 @@ fn of_rust(mechanism: &machine::Mechanism<f64>, y: &[f64], a: &[f64]) -> Vec<f64
         mechanism.center_of_mass(q).to_vec(),
         mechanism.centroidal_momentum(q, v).to_vec(),
         mechanism.centroidal_matrix(q).concat(),
+        mechanism.contacts(q, v).concat(),
         vec![mechanism.kinetic_energy_at(0.1, q, v)],
         vec![mechanism.potential_energy(q)],
     ]
@@ -157,31 +158,16 @@ fn c_gives_the_bits_of_the_engine() {
          while (fread(given, sizeof(double), {state} + {n}, stdin) == {state} + {n}) {{\n{calls}}}\nreturn 0;\n}}\n"
     );
     let folder = tempfile::tempdir().expect("a folder");
-    for (file, text) in [
+    let files = [
         ("machine.h", &source.header),
         ("machine.c", &source.source),
         ("main.c", &program),
-    ] {
-        std::fs::write(folder.path().join(file), text).expect("written");
-    }
-    let flags = [
-        "-O1",
-        "-std=c99",
-        "-Wall",
-        "-Wextra",
-        "-Werror",
-        "-o",
-        "program",
-        "main.c",
-        "machine.c",
-        "-lm",
     ];
-    let compiled = Command::new("cc")
-        .current_dir(&folder)
-        .args(flags)
-        .status()
-        .expect("a C compiler");
-    assert!(compiled.success());
+    compile(
+        folder.path(),
+        &files,
+        &["-o", "program", "main.c", "machine.c", "-lm"],
+    );
     let code = engine.over::<f64>();
     let (mut input, mut expected) = (Vec::new(), Vec::new());
     for (y, a) in cases(&engine) {
@@ -200,4 +186,33 @@ fn c_gives_the_bits_of_the_engine() {
     let found = run.wait_with_output().expect("it ends").stdout;
     assert_eq!(found.len(), expected.len());
     assert!(found == expected, "the bits differ");
+}
+
+/// Compiles C without a warning.
+fn compile(folder: &Path, files: &[(&str, &String)], arguments: &[&str]) {
+    for (file, text) in files {
+        std::fs::write(folder.join(file), text).expect("written");
+    }
+    let compiled = Command::new("cc")
+        .current_dir(folder)
+        .args(["-O1", "-std=c99", "-Wall", "-Wextra", "-Werror"])
+        .args(arguments)
+        .status()
+        .expect("a C compiler");
+    assert!(compiled.success());
+}
+
+/// A function without values is one all the same: a mechanism without contacts has no row of them.
+#[test]
+fn nothing_is_written_in_c_where_there_is_nothing() {
+    let (model, _) =
+        bryant_generator::read(Path::new("../models/robot-arm.yaml")).expect("a model");
+    let mut config = Config::new();
+    let config = config.matrices(false).functions(["contacts"]);
+    let source = config.c_source(&model).expect("C");
+    let folder = tempfile::tempdir().expect("a folder");
+    let header = format!("{}.h", source.name);
+    let files = [(&header[..], &source.header), ("arm.c", &source.source)];
+    compile(folder.path(), &files, &["-c", "arm.c"]);
+    assert!(source.source.contains("_contacts(const"));
 }

@@ -2,32 +2,21 @@
 //!
 //! Sums of some hundred terms agree within 1e-11 of the sizes of their terms.
 
-use super::{all, engine, values};
+use super::{all, engine, models, values};
 use bryant_engine::{Engine, Evaluated};
 use bryant_generator::model::{Dimension, Element, Freedom, Model, Number, Reference};
 use bryant_generator::program::Method;
 use bryant_runtime::{Dual, Dynamics, Section, StateKind};
 use bryant_tests::trees::Random;
-use std::path::{Path, PathBuf};
 
 const STATES: usize = 4;
 const ROUNDING: f64 = 1e-11;
 
 #[test]
 fn functions_agree_with_each_other_on_every_model() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files: Vec<PathBuf> = Vec::new();
-    for folder in ["../models", "models", "models/functions"] {
-        let entries = std::fs::read_dir(root.join(folder)).expect("a folder");
-        let paths = entries.map(|entry| entry.expect("an entry").path());
-        files.extend(paths.filter(|path| path.extension().is_some_and(|e| e == "yaml")));
-    }
-    files.sort();
-    let mut checked = 0;
-    for file in files {
-        let (model, _) = bryant_generator::read(&file).unwrap_or_else(|e| panic!("{e}"));
-        checked += usize::from(Case::of(&model).is_some_and(|case| case.holds()));
-    }
+    let models = models(&["../models", "models", "models/functions"]);
+    let holds = |model: &&Model| Case::of(model).is_some_and(|case| case.holds());
+    let checked = models.iter().filter(holds).count();
     assert!(checked > 30, "only {checked} models were checked");
 }
 

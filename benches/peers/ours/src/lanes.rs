@@ -46,26 +46,36 @@ fn over<T: Real, M: Model<f64>>() -> Over<T, M> {
 }
 
 /// States in lanes; the last register is filled with copies of the first state.
-fn registers<T: Several<One = f64>, S: Vector<T>>(states: &[Vec<f64>]) -> Vec<S> {
+pub fn registers<T: Several<One = f64>>(states: &[Vec<f64>], length: usize) -> Vec<Vec<T>> {
     let register = |states: &[Vec<f64>]| {
-        let mut y = S::splat(T::from_f64(0.0));
-        for i in 0..S::LEN {
+        let entry = |i: usize| {
             let mut lanes = [states[0][i]; MOST_LANES];
             for (lane, state) in lanes.iter_mut().zip(states) {
                 *lane = state[i];
             }
-            y[i] = T::of_lanes(&lanes);
-        }
-        y
+            T::of_lanes(&lanes)
+        };
+        (0..length).map(entry).collect()
     };
     states.chunks(T::LANES).map(register).collect()
+}
+
+/// The same as states of a model.
+fn of_model<T: Several<One = f64>, S: Vector<T>>(states: &[Vec<f64>]) -> Vec<S> {
+    let rows = registers::<T>(states, S::LEN).into_iter();
+    let state = |row: Vec<T>| {
+        let mut y = S::splat(T::from_f64(0.0));
+        (0..S::LEN).for_each(|i| y[i] = row[i]);
+        y
+    };
+    rows.map(state).collect()
 }
 
 impl<M: Model<f64>> OfAnyWidth for Accelerations<'_, M> {
     type Output = (Vec<f64>, Vec<Vec<f64>>);
     fn run<T: Several<One = f64>>(self) -> Self::Output {
         let model = over::<T, M>();
-        let y: Vec<<M::With<T> as Model<T>>::State> = registers(self.states);
+        let y: Vec<<M::With<T> as Model<T>>::State> = of_model(self.states);
         let mut rates = y.clone();
         // the number of states in a batch includes the copies that fill the last register
         let times = time::batches(y.len() * T::LANES, || {
@@ -95,7 +105,7 @@ impl<M: Model<f64>> OfAnyWidth for Fall<'_, M> {
                 self.start.iter().map(|x| x * off).collect()
             })
             .collect();
-        let mut y: Vec<<M::With<T> as Model<T>>::State> = registers(&starts);
+        let mut y: Vec<<M::With<T> as Model<T>>::State> = of_model(&starts);
         let mut start = y.remove(0);
         model.0.normalize(&mut start);
         let mut end = start;

@@ -6,6 +6,7 @@
 //! | `names MODEL` | | the names of q, then v |
 //! | `start MODEL` | | the state that a run starts from, q then v |
 //! | `accelerations MODEL COLUMN` | number of states, then each: q, v | nanoseconds per evaluation of each batch, a line; then v̇, a line for each state |
+//! | `function FOLDER ROBOT FUNCTION COLUMN` | number of rows, then each: q, v, accelerations | nanoseconds per evaluation of each batch, a line; then the results, a line for each row |
 //! | `fall DURATION STEP COLUMN METHOD` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
 //!
 //! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In lanes the derivative of
@@ -14,7 +15,9 @@
 //! SI units; q and v are in the order of the model's own table of coordinates. The programs of the other engines use the same format.
 
 mod fall;
+mod functions;
 mod lanes;
+mod robots;
 mod time;
 
 use bryant_runtime::real::lanes::with_width;
@@ -156,6 +159,17 @@ fn main() -> Result<()> {
             println!("{}", numbers(&times));
             results.iter().for_each(|row| println!("{}", numbers(row)));
         }
+        ["function", folder, robot, function, column] => {
+            let of = functions::Of::new(folder.as_ref(), robot, function)?;
+            let rows = read()?;
+            let (times, results) = match column {
+                "f64" => of.one_by_one(&rows),
+                column => with_width(width(column)?, functions::Abreast(&of, &rows))
+                    .ok_or("this processor has no such registers")?,
+            };
+            println!("{}", numbers(&times));
+            results.iter().for_each(|row| println!("{}", numbers(row)));
+        }
         ["fall", duration, step, column, method] if column != "f64" => {
             let (duration, step): (f64, f64) = (duration.parse()?, step.parse()?);
             let states = read()?;
@@ -181,7 +195,7 @@ fn main() -> Result<()> {
             println!("{}", numbers(&times));
             println!("{}", numbers(&end));
         }
-        _ => return Err("trees, names, start, accelerations or fall? See src/main.rs".into()),
+        _ => return Err("trees, names, start, accelerations, function or fall? See src/main.rs".into()),
     }
     Ok(())
 }

@@ -9,6 +9,7 @@
 //! | `regressor` | how inverse dynamics depends on masses and inertias |
 //! | `frame` | pose, velocity and Jacobian of a frame |
 //! | `whole` | centre of mass, centroidal momentum, energies |
+//! | `contacts` | where surfaces touch |
 //! | `derivatives` | derivatives of inverse dynamics and of accelerations, linearisation |
 //!
 //! With v̇ = a, a mechanism needs the forces S a − r_s. Of r_k, `gravity_forces` r_g are those of all fields, and of the
@@ -18,6 +19,7 @@
 //! Vectors are in absolute axes. Of a motion or a wrench the linear part comes first; the velocity of a frame is that of
 //! its origin. Matrices are by rows.
 
+mod contacts;
 mod derivatives;
 mod forces;
 mod frame;
@@ -224,6 +226,14 @@ pub const FUNCTIONS: &[Function] = &[
         rows: motion,
         columns: velocities,
         derive: Always(whole::centroidal_matrix),
+    },
+    Function {
+        name: "contacts",
+        sentence: "For each two surfaces that may touch: their gap, the point where the force acts, the normal, and the force on the first body.",
+        arguments: OF_MOTION,
+        rows: contacts::names,
+        columns: contacts::columns,
+        derive: Always(contacts::contacts),
     },
     Function {
         name: "kinetic_energy",

@@ -131,6 +131,7 @@ fn apply<'g>(
     let outflow = gas.flow(graph, model, applied, &owner, airbag, shrinking);
     AirbagMeasures {
         on: push(applied, &owner, airbag, &meetings, over),
+        names: names(model, name, airbag),
         pressure: gas.pressure,
         temperature: gas.heat / number(graph, &airbag.constant),
         mass: gas.mass.1,
@@ -139,7 +140,16 @@ fn apply<'g>(
         area: meetings
             .iter()
             .fold(graph.constant(0.0), |sum, m| sum + m.area),
+        touches: meetings.into_iter().map(|m| m.touch).collect(),
     }
+}
+
+/// "bag on dummy/head" for each ellipsoid that a bag meets.
+fn names(model: &Model, name: &str, airbag: &Airbag) -> Vec<String> {
+    let bodies = airbag.against.iter().map(|other| other.center.on);
+    bodies
+        .map(|body| format!("{name} on {}", model.name_of(body)))
+        .collect()
 }
 
 /// The volume that remains for the gas of a bag that gives up these volumes.

@@ -5,7 +5,8 @@ use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::force::{Measures, Value};
+use crate::force::{ContactPoint, Measures, Value};
+use crate::law::contact::force::Touch;
 use crate::model::law::{OfLaw, Visible};
 use crate::model::look::Look;
 use crate::model::resolve::Resolver;
@@ -92,11 +93,21 @@ pub struct AirbagMeasures<'g> {
     pub outflow: Expr<'g>,
     /// Total area that pushes \[m²\].
     pub area: Expr<'g>,
+    /// For each ellipsoid that the bag meets, its name and how it touches the bag, which is the first body.
+    pub names: Vec<String>,
+    pub(crate) touches: Vec<Touch<'g>>,
 }
 
 impl<'g> Measures<'g> for AirbagMeasures<'g> {
     fn on(&self) -> Vec<Vec3<'g>> {
         self.on.clone()
+    }
+
+    fn contact_points(&self) -> Vec<ContactPoint<'g>> {
+        let (of, pushes) = (self.names.iter().zip(&self.touches), &self.on[1..]);
+        of.zip(pushes)
+            .map(|((name, touch), push)| touch.point(name.clone(), -*push, None))
+            .collect()
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {

@@ -1,11 +1,12 @@
 //! Outputs of a contact.
 
 use super::check::{Against, Contact};
+use super::force::Touch;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
-use crate::force::{Measures, Value};
+use crate::force::{ContactPoint, Measures, Value};
 use crate::model::Quantity;
 use crate::model::Round;
 use crate::model::law::{OfLaw, Visible};
@@ -83,7 +84,6 @@ impl Visible for Contact {
 }
 
 /// Expressions of the quantities of a contact.
-#[derive(Clone, Copy)]
 pub struct ContactMeasures<'g> {
     /// The whole force on the body of the contact's `ellipsoid` \[N\].
     pub on_first: Vec3<'g>,
@@ -97,11 +97,24 @@ pub struct ContactMeasures<'g> {
     pub penetration: Expr<'g>,
     /// Penetration at which the force on the unloading line is 0 \[m\]; 0 without hysteresis.
     pub permanent_set: Expr<'g>,
+    /// Name of the contact.
+    pub name: String,
+    /// Where the surfaces touch.
+    pub(crate) touch: Touch<'g>,
+    /// Positive if the deepest point is inside the edges of a plane \[m\]; `None` without edges.
+    pub inside: Option<Expr<'g>>,
 }
 
 impl<'g> Measures<'g> for ContactMeasures<'g> {
     fn on(&self) -> Vec<Vec3<'g>> {
         vec![self.on_first]
+    }
+
+    fn contact_points(&self) -> Vec<ContactPoint<'g>> {
+        vec![
+            self.touch
+                .point(self.name.clone(), self.on_first, self.inside),
+        ]
     }
 
     fn value(&self, asked: &dyn OfLaw) -> Option<Value<'g>> {

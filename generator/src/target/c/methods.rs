@@ -77,6 +77,9 @@ impl Methods<'_> {
         if function.accelerations && !statements.uses_accelerations {
             silent.push_str("    (void)accelerations;\n");
         }
+        if function.list.results.is_empty() {
+            silent.push_str("    (void)results;\n");
+        }
         let shape = match (function.rows.len(), function.columns.len()) {
             (1, 1) => "One number.".to_owned(),
             (rows, 1) => format!("{rows} numbers."),

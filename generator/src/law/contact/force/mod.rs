@@ -22,14 +22,14 @@ use crate::force::fade::faded;
 use crate::force::hysteresis;
 use crate::force::switch::Gate;
 use crate::force::{Acts, AppliedForces, Product, point_on};
-use crate::force::{Equations, Measures, Setting};
+use crate::force::{ContactPoint, Equations, Measures, Setting};
 use crate::law::contact::check::{Against, Contact};
 use crate::law::contact::onset::Pair;
 use crate::model::{Dimension, EdgeRule, Plane};
 use crate::motion::Motion;
 use crate::motion::numbers::{curve, derivative, number, vector};
 use friction::{Rubbing, friction};
-use pair::on_ellipsoid;
+use pair::{Search, on_ellipsoid};
 use std::rc::Rc;
 use support::Support;
 
@@ -41,6 +41,11 @@ pub(crate) struct Touch<'g> {
     pub(crate) overlap: Expr<'g>,
     /// Unit vector from the second body to the first.
     pub(crate) normal: Vec3<'g>,
+    /// The point where forces act.
+    place: Vec3<'g>,
+    /// The search for it and for the normal, which ends early while the bodies are apart, and the centre of the first
+    /// body; `None` if both are known without one.
+    search: Option<(Search<'g>, Vec3<'g>)>,
     /// Vector from the joint of the first body to the point where forces act.
     pub(crate) offset: Vec3<'g>,
     /// Vector from the joint of the second body to the point where forces act.
@@ -55,7 +60,7 @@ pub(crate) struct Touch<'g> {
     centre: Vec3<'g>,
     centre_on_second: Vec3<'g>,
     /// Coordinates of the deepest point along the tangents of the plane \[m\]; empty if the plane has no edges.
-    place: Vec<Expr<'g>>,
+    along: Vec<Expr<'g>>,
     /// For a fading edge: each tangent t, and the vector m of the motion of the deepest point along t.
     moving: Vec<[Vec3<'g>; 2]>,
     /// For an ellipsoid of a degree other than 2: expressions that are 0 when the deepest point passes from one flat
@@ -70,6 +75,30 @@ impl<'g> Touch<'g> {
     /// The one tangent in the plane x–z.
     fn planar_tangent(&self) -> Vec3<'g> {
         planar_tangent(self.normal)
+    }
+
+    /// The contact point, with the force on the first body. `inside` is positive if it is inside the edges of a plane.
+    pub(crate) fn point(
+        &self,
+        name: String,
+        force: Vec3<'g>,
+        inside: Option<Expr<'g>>,
+    ) -> ContactPoint<'g> {
+        let gap = -self.overlap;
+        let (normal, place) = match &self.search {
+            None => (self.normal, self.place),
+            Some((search, centre)) => {
+                let [normal, from_centre] = search.nearest();
+                (normal, *centre + from_centre)
+            }
+        };
+        ContactPoint {
+            name,
+            gap: inside.map_or(gap, |inside| gap.max(-inside)),
+            place,
+            normal,
+            force,
+        }
     }
 
     /// Sliding velocity: the part of the relative velocity in the tangent plane.
@@ -129,7 +158,7 @@ fn apply<'g>(
     pressure = gate.of(pressure);
     let pair = Pair::of(graph, dimension, motion, contact);
     begins(applied, &owner, gate, contact, &touch, pair);
-    let weight = extent.map(|extent| edge::weight(extent, &touch.place));
+    let weight = extent.map(|extent| edge::weight(extent, &touch.along));
     if let (Some(weight), Some(extent)) = (&weight, extent) {
         pressure = weight.weight * pressure;
         // beyond the edge there is no force, not even NaN where a curve has no value
@@ -203,6 +232,9 @@ fn apply<'g>(
         friction: rubbing.magnitude,
         penetration: touch.overlap,
         permanent_set,
+        name: name.to_owned(),
+        touch,
+        inside: weight.map(|weight| weight.inside),
     }
 }
 
@@ -239,7 +271,7 @@ pub(crate) fn begins<'g>(
         (Some(curve), None) => applied.lead(graph, curve),
         _ => graph.constant(0.0),
     };
-    let (penetration, normal, place) = (touch.penetration, touch.normal, touch.place.clone());
+    let (penetration, normal, along) = (touch.penetration, touch.normal, touch.along.clone());
     let tangents = touch.tangents.clone();
     let pair = Rc::new(pair);
     let unloading = contact.hysteresis.as_ref().map(|law| &law.unloading);
@@ -258,7 +290,7 @@ pub(crate) fn begins<'g>(
             [] => vec![planar_tangent(normal)],
             _ => tangents.clone(),
         };
-        gate.of_onset(pair.touches(lead - penetration, normal, &tangents, &place))
+        gate.of_onset(pair.touches(lead - penetration, normal, &tangents, &along))
     });
 }
 
@@ -375,6 +407,8 @@ fn on_plane<'g>(
         penetration,
         overlap: penetration,
         normal,
+        place: point,
+        search: None,
         offset,
         offset_on_second,
         velocity,
@@ -382,7 +416,7 @@ fn on_plane<'g>(
         between: None,
         centre: centre.offset,
         centre_on_second: centre.position - plane.position,
-        place: Vec::new(),
+        along: Vec::new(),
         moving: Vec::new(),
         flats: support.flats.clone(),
         tangents,
@@ -393,7 +427,7 @@ fn on_plane<'g>(
             Dimension::Space => touch.tangents.clone(),
         };
         let from_middle = point - on_plane.position;
-        touch.place = tangents.iter().map(|t| t.dot(from_middle)).collect();
+        touch.along = tangents.iter().map(|t| t.dot(from_middle)).collect();
         if let EdgeRule::Fade(_) = extent.rule {
             let turning = |t: &Vec3<'g>| [*t, support.turning(normal, *t)];
             touch.moving = tangents.iter().map(turning).collect();

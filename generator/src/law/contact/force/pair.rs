@@ -61,7 +61,8 @@ pub fn on_ellipsoid<'g>(
         direction,
         penetration,
         from_centre,
-        ..
+        overlap,
+        search,
     } = meeting;
     let offset = first.offset + from_centre;
     let point = first.centre + from_centre;
@@ -75,8 +76,10 @@ pub fn on_ellipsoid<'g>(
     };
     Touch {
         penetration,
-        overlap: meeting.overlap,
+        overlap,
         normal: -direction,
+        place: point,
+        search: search.map(|search| (search, first.centre)),
         offset,
         offset_on_second,
         velocity,
@@ -84,7 +87,7 @@ pub fn on_ellipsoid<'g>(
         between: Some(between),
         centre: first.offset,
         centre_on_second: first.centre - bodies[1].position,
-        place: Vec::new(),
+        along: Vec::new(),
         moving: Vec::new(),
         flats: Vec::new(),
         tangents,
@@ -97,10 +100,6 @@ pub fn direction<'g>(
     normal: Vec3<'g>,
     between: Vec3<'g>,
 ) -> Vec<impl Fn() -> Expr<'g> + 'g> {
-    let used: &[usize] = match dimension {
-        Dimension::Plane => &[0, 2],
-        Dimension::Space => &[0, 1, 2],
-    };
     let component = move |i: &usize| {
         let component = normal.0[*i];
         move || {
@@ -109,7 +108,8 @@ pub fn direction<'g>(
             choose(between.squared(), smallest, graph.constant(0.0), component)
         }
     };
-    used.iter().map(component).collect()
+    let used = used(dimension == Dimension::Plane).iter();
+    used.map(component).collect()
 }
 
 impl<'g> Body<'g> {
@@ -122,12 +122,10 @@ impl<'g> Body<'g> {
     ) -> Self {
         let place = motion.attachment(graph, center);
         let a = vector(graph, semi_axes).0;
-        let used: &[usize] = match dimension {
-            Dimension::Plane => &[0, 2],
-            Dimension::Space => &[0, 1, 2],
-        };
         let zero = graph.constant(0.0);
-        let round = used.iter().all(|&i| a[i].id() == a[0].id());
+        let round = used(dimension == Dimension::Plane)
+            .iter()
+            .all(|&i| a[i].id() == a[0].id());
         let quadric = if round {
             let square = a[0].squared();
             [square, square, square, zero, zero, zero]
@@ -159,6 +157,59 @@ impl<'g> Body<'g> {
     }
 }
 
+/// The search for the direction in which two bodies overlap least.
+pub(crate) struct Search<'g> {
+    graph: &'g Graph,
+    planar: bool,
+    arguments: Vec<Expr<'g>>,
+}
+
+impl<'g> Search<'g> {
+    /// A result. `early` if the search may end when it is clear that the bodies are apart.
+    fn part(&self, early: bool, part: usize) -> Expr<'g> {
+        let call = ApproachCall {
+            planar: self.planar,
+            early,
+            part: part as u8,
+        };
+        self.graph.call(Function::Approach(call), &self.arguments)
+    }
+
+    fn vector(&self, early: bool, from: usize) -> Vec3<'g> {
+        let mut vector = Vec3::zero(self.graph);
+        for (k, &i) in used(self.planar).iter().enumerate() {
+            vector.0[i] = self.part(early, from + k);
+        }
+        vector
+    }
+
+    /// n
+    fn direction(&self, early: bool) -> Vec3<'g> {
+        self.vector(early, 0)
+    }
+
+    /// δ
+    fn overlap(&self, early: bool) -> Expr<'g> {
+        self.part(early, used(self.planar).len())
+    }
+
+    /// Vector from the centre of the first body to the middle between the deepest points.
+    fn from_centre(&self, early: bool) -> Vec3<'g> {
+        self.vector(early, used(self.planar).len() + 1)
+    }
+
+    /// The normal, and the middle between the deepest points from the centre of the first body; also while the bodies
+    /// are apart.
+    pub(crate) fn nearest(&self) -> [Vec3<'g>; 2] {
+        [-self.direction(false), self.from_centre(false)]
+    }
+}
+
+/// The components of a vector that count.
+fn used(planar: bool) -> &'static [usize] {
+    if planar { &[0, 2] } else { &[0, 1, 2] }
+}
+
 /// The place where two bodies overlap most, or are nearest.
 struct Meeting<'g> {
     /// n
@@ -169,6 +220,8 @@ struct Meeting<'g> {
     overlap: Expr<'g>,
     /// Vector from the centre of the first body to the middle between the deepest points.
     from_centre: Vec3<'g>,
+    /// None for two spheres.
+    search: Option<Search<'g>>,
 }
 
 impl<'g> Meeting<'g> {
@@ -182,6 +235,7 @@ impl<'g> Meeting<'g> {
             penetration,
             overlap: penetration,
             from_centre: a * direction - ((0.5 * penetration) * direction),
+            search: None,
         }
     }
 
@@ -192,38 +246,27 @@ impl<'g> Meeting<'g> {
         between: Vec3<'g>,
     ) -> Self {
         let planar = dimension == Dimension::Plane;
-        let used: &[usize] = if planar { &[0, 2] } else { &[0, 1, 2] };
         let entries: &[usize] = if planar {
             &[0, 2, 4]
         } else {
             &[0, 1, 2, 3, 4, 5]
         };
         let quadrics = bodies.map(|body| entries.iter().map(|&k| body.quadric[k]));
-        let arguments: Vec<Expr<'g>> = quadrics
-            .into_iter()
-            .flatten()
-            .chain(used.iter().map(|&i| between.0[i]))
-            .collect();
-        let part = |early: bool, part: usize| {
-            let call = ApproachCall {
-                planar,
-                early,
-                part: part as u8,
-            };
-            graph.call(Function::Approach(call), &arguments)
-        };
-        let vector = |from: usize| {
-            let mut vector = Vec3::zero(graph);
-            for (k, &i) in used.iter().enumerate() {
-                vector.0[i] = part(true, from + k);
-            }
-            vector
+        let search = Search {
+            graph,
+            planar,
+            arguments: quadrics
+                .into_iter()
+                .flatten()
+                .chain(used(planar).iter().map(|&i| between.0[i]))
+                .collect(),
         };
         Meeting {
-            direction: vector(0),
-            penetration: part(true, used.len()),
-            overlap: part(false, used.len()),
-            from_centre: vector(used.len() + 1),
+            direction: search.direction(true),
+            penetration: search.overlap(true),
+            overlap: search.overlap(false),
+            from_centre: search.from_centre(true),
+            search: Some(search),
         }
     }
 }
