@@ -194,14 +194,14 @@ impl<'g> Search<'g> {
     }
 
     /// Vector from the centre of the first body to the middle between the deepest points.
-    fn from_centre(&self, early: bool) -> Vec3<'g> {
+    fn to_middle(&self, early: bool) -> Vec3<'g> {
         self.vector(early, used(self.planar).len() + 1)
     }
 
     /// The normal, and the middle between the deepest points from the centre of the first body; also while the bodies
     /// are apart.
     pub(crate) fn nearest(&self) -> [Vec3<'g>; 2] {
-        [-self.direction(false), self.from_centre(false)]
+        [-self.direction(false), self.to_middle(false)]
     }
 }
 
@@ -265,7 +265,7 @@ impl<'g> Meeting<'g> {
             direction: search.direction(true),
             penetration: search.overlap(true),
             overlap: search.overlap(false),
-            from_centre: search.from_centre(true),
+            from_centre: search.to_middle(true),
             search: Some(search),
         }
     }
