@@ -2,8 +2,9 @@
 
 use crate::instance::starts;
 use crate::setting::{Setting, token};
-use crate::variables::{Of, TIME, variables};
+use crate::variables::{Of, TIME, Variable, variables};
 use bryant_engine::Engine;
+use bryant_runtime::Info;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
@@ -65,24 +66,7 @@ pub fn description(
     }
     xml.line(1, "<CoSimulation", &abilities, "/>");
 
-    let units: BTreeSet<&str> = variables.iter().map(|of| of.unit).chain(["s"]).collect();
-    xml.line(1, "<UnitDefinitions", &[], ">");
-    for unit in units.into_iter().filter(|unit| !unit.is_empty()) {
-        xml.line(2, "<Unit", &[("name", unit)], ">");
-        if let Some(base) = base_unit(unit) {
-            let base: Vec<_> = base
-                .iter()
-                .map(|(name, power)| (*name, power.to_string()))
-                .collect();
-            let base: Vec<_> = base
-                .iter()
-                .map(|(name, power)| (*name, &power[..]))
-                .collect();
-            xml.line(3, "<BaseUnit", &base, "/>");
-        }
-        xml.line(2, "</Unit", &[], ">");
-    }
-    xml.line(1, "</UnitDefinitions", &[], ">");
+    xml.units(&variables);
     xml.line(1, "<LogCategories", &[], ">");
     for name in ["logStatusWarning", "logStatusError"] {
         xml.line(2, "<Category", &[("name", name)], "/>");
@@ -99,77 +83,8 @@ pub fn description(
         "/>",
     );
 
-    xml.line(1, "<ModelVariables", &[], ">");
-    let independent = [("causality", "independent"), ("variability", "continuous")];
-    xml.variable(two, TIME, 0, &independent, &[("unit", "s")]);
-    for (index, variable) in variables.iter().enumerate() {
-        let kept = match variable.of {
-            Of::Parameter(index) | Of::Input(index) => Some(&info.parameters[index]),
-            _ => None,
-        };
-        let start = kept.map(|_| match variable.of {
-            Of::Parameter(index) | Of::Input(index) => starts[index].to_string(),
-            _ => String::new(),
-        });
-        let (min, max) = (kept.map(|of| of.min), kept.map(|of| of.max));
-        let [min, max] =
-            [min, max].map(|bound| bound.filter(|of| of.is_finite()).map(|of| of.to_string()));
-        let of_kind: &[(&str, &str)] = match variable.of {
-            Of::Parameter(_) => &[
-                ("causality", "parameter"),
-                ("variability", "fixed"),
-                ("initial", "exact"),
-            ],
-            Of::Input(_) => &[("causality", "input"), ("variability", "continuous")],
-            Of::Output(_) => &[
-                ("causality", "output"),
-                ("variability", "continuous"),
-                ("initial", "calculated"),
-            ],
-            Of::State(_) => &[
-                ("causality", "local"),
-                ("variability", "continuous"),
-                ("initial", "calculated"),
-            ],
-        };
-        let optional = [
-            ("unit", Some(variable.unit).filter(|unit| !unit.is_empty())),
-            ("min", min.as_deref()),
-            ("max", max.as_deref()),
-            ("start", start.as_deref()),
-        ];
-        let number: Vec<_> = optional
-            .into_iter()
-            .filter_map(|(key, value)| Some((key, value?)))
-            .collect();
-        xml.variable(two, &variable.name, index + 1, of_kind, &number);
-    }
-    xml.line(1, "</ModelVariables", &[], ">");
-
-    xml.line(1, "<ModelStructure", &[], ">");
-    let outputs: Vec<String> = variables
-        .iter()
-        .enumerate()
-        .filter(|(_, variable)| matches!(variable.of, Of::Output(_)))
-        // references from 1, behind the time; indices of variables in FMI 2.0 begin at 1, with the time
-        .map(|(index, _)| (index + if two { 2 } else { 1 }).to_string())
-        .collect();
-    if two && !outputs.is_empty() {
-        for list in ["Outputs", "InitialUnknowns"] {
-            xml.line(2, &format!("<{list}"), &[], ">");
-            for index in &outputs {
-                xml.line(3, "<Unknown", &[("index", index)], "/>");
-            }
-            xml.line(2, &format!("</{list}"), &[], ">");
-        }
-    } else {
-        for element in ["<Output", "<InitialUnknown"] {
-            for reference in &outputs {
-                xml.line(2, element, &[("valueReference", reference)], "/>");
-            }
-        }
-    }
-    xml.line(1, "</ModelStructure", &[], ">");
+    xml.variables(two, info, &variables, &starts);
+    xml.structure(two, &variables);
     xml.line(0, "</fmiModelDescription", &[], ">");
     xml.0
 }
@@ -186,6 +101,106 @@ impl Xml {
         }
         self.0.push_str(end);
         self.0.push('\n');
+    }
+
+    /// The units of variables, with their base units.
+    fn units(&mut self, variables: &[Variable]) {
+        let units: BTreeSet<&str> = variables.iter().map(|of| of.unit).chain(["s"]).collect();
+        self.line(1, "<UnitDefinitions", &[], ">");
+        for unit in units.into_iter().filter(|unit| !unit.is_empty()) {
+            self.line(2, "<Unit", &[("name", unit)], ">");
+            if let Some(base) = base_unit(unit) {
+                let base: Vec<_> = base
+                    .iter()
+                    .map(|(name, power)| (*name, power.to_string()))
+                    .collect();
+                let base: Vec<_> = base
+                    .iter()
+                    .map(|(name, power)| (*name, &power[..]))
+                    .collect();
+                self.line(3, "<BaseUnit", &base, "/>");
+            }
+            self.line(2, "</Unit", &[], ">");
+        }
+        self.line(1, "</UnitDefinitions", &[], ">");
+    }
+
+    /// Time, then all variables. `starts` has the values of parameters and inputs.
+    fn variables(&mut self, two: bool, info: &Info, variables: &[Variable], starts: &[f64]) {
+        self.line(1, "<ModelVariables", &[], ">");
+        let independent = [("causality", "independent"), ("variability", "continuous")];
+        self.variable(two, TIME, 0, &independent, &[("unit", "s")]);
+        for (index, variable) in variables.iter().enumerate() {
+            let kept = match variable.of {
+                Of::Parameter(index) | Of::Input(index) => Some(&info.parameters[index]),
+                _ => None,
+            };
+            let start = kept.map(|_| match variable.of {
+                Of::Parameter(index) | Of::Input(index) => starts[index].to_string(),
+                _ => String::new(),
+            });
+            let (min, max) = (kept.map(|of| of.min), kept.map(|of| of.max));
+            let [min, max] =
+                [min, max].map(|bound| bound.filter(|of| of.is_finite()).map(|of| of.to_string()));
+            let of_kind: &[(&str, &str)] = match variable.of {
+                Of::Parameter(_) => &[
+                    ("causality", "parameter"),
+                    ("variability", "fixed"),
+                    ("initial", "exact"),
+                ],
+                Of::Input(_) => &[("causality", "input"), ("variability", "continuous")],
+                Of::Output(_) => &[
+                    ("causality", "output"),
+                    ("variability", "continuous"),
+                    ("initial", "calculated"),
+                ],
+                Of::State(_) => &[
+                    ("causality", "local"),
+                    ("variability", "continuous"),
+                    ("initial", "calculated"),
+                ],
+            };
+            let optional = [
+                ("unit", Some(variable.unit).filter(|unit| !unit.is_empty())),
+                ("min", min.as_deref()),
+                ("max", max.as_deref()),
+                ("start", start.as_deref()),
+            ];
+            let number: Vec<_> = optional
+                .into_iter()
+                .filter_map(|(key, value)| Some((key, value?)))
+                .collect();
+            self.variable(two, &variable.name, index + 1, of_kind, &number);
+        }
+        self.line(1, "</ModelVariables", &[], ">");
+    }
+
+    /// What the importer may ask for: the outputs.
+    fn structure(&mut self, two: bool, variables: &[Variable]) {
+        self.line(1, "<ModelStructure", &[], ">");
+        let outputs: Vec<String> = variables
+            .iter()
+            .enumerate()
+            .filter(|(_, variable)| matches!(variable.of, Of::Output(_)))
+            // references from 1, behind the time; indices of variables in FMI 2.0 begin at 1, with the time
+            .map(|(index, _)| (index + if two { 2 } else { 1 }).to_string())
+            .collect();
+        if two && !outputs.is_empty() {
+            for list in ["Outputs", "InitialUnknowns"] {
+                self.line(2, &format!("<{list}"), &[], ">");
+                for index in &outputs {
+                    self.line(3, "<Unknown", &[("index", index)], "/>");
+                }
+                self.line(2, &format!("</{list}"), &[], ">");
+            }
+        } else {
+            for element in ["<Output", "<InitialUnknown"] {
+                for reference in &outputs {
+                    self.line(2, element, &[("valueReference", reference)], "/>");
+                }
+            }
+        }
+        self.line(1, "</ModelStructure", &[], ">");
     }
 
     /// A variable: in FMI 2.0 with an element for its number, in 3.0 as one.

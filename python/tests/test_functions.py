@@ -135,7 +135,7 @@ def test_what_is_not_there_is_refused(arm):
         arm.evaluate("inverse_dynamic", *arm.start())
 
 
-def test_contacts(arm):
+def test_contacts(cartpole):
     ball = bryant.load("""\
 model: ball
 dimension: 3
@@ -154,6 +154,6 @@ run: { duration: 1, every: 0.1 }
     assert np.allclose(found.force, [[0, 0, 100], [0, 0, 0]])
     many = ball.contacts(np.array([q, q, q]), np.array([v, v, v]))
     assert many.force.shape == (3, 2, 3) and many.gap.shape == (3, 2)
-    q, v = states(arm, 4)
-    none = arm.contacts(q, v)
+    q, v = states(cartpole, 4)
+    none = cartpole.contacts(q, v)
     assert none.names == [] and none.gap.shape == (4, 0) and none.force.shape == (4, 0, 3)

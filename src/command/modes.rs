@@ -3,17 +3,15 @@
 use super::Error;
 use super::model_argument::find;
 use super::parameters::{parse_parameters, values_of};
-use super::prepare::prepare_model;
-use super::progress::Progress;
+use super::prepare::prepare_with;
 use super::run::read_start;
 use super::settle::{STANDARD_GRAVITY, Watched};
 use super::terminal::Terminal;
-use crate::equations;
 use crate::modes::{self, Mode, NoModes, Number, hidden};
 use crate::table::{Cells, side_by_side};
-use bryant_engine::batch::{Rows, Wanted};
+use bryant_engine::Evaluated;
 use bryant_generator::Config;
-use bryant_runtime::{Info, StateKind};
+use bryant_runtime::{Adjustable, Dynamics, Info, StateKind};
 use clap::Args;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
@@ -23,7 +21,7 @@ use std::path::PathBuf;
 /// List the modes of a mechanism about a state of rest: frequencies, damping, shapes
 #[derive(Debug, Args)]
 #[command(after_long_help = "\
-The equations with all their forces are linearised exactly at the state, and the modes are those of the linear system. Nothing is left out: gyroscopic
+The equations with all their forces are linearised exactly at the state, by dual numbers, and the modes are those of the linear system. Nothing is left out: gyroscopic
 terms, damping, states of force laws. A force that holds or begins to act elsewhere counts as it is in this state.
 
   frequency   |λ|/2π, that of the mode without its damping; a mode that does not oscillate has none
@@ -73,6 +71,9 @@ const POOR: f64 = 1e-8;
 const SMALL: f64 = 0.05;
 const MANY: usize = 4;
 
+/// The function with S, for the shares of the kinetic energy.
+const MASS_MATRIX: &str = "mass_matrix";
+
 /// A mode with what people read.
 struct Shown<'a> {
     mode: &'a Mode,
@@ -88,12 +89,13 @@ impl Arguments {
         let found = find(&self.model)?;
         found.tell(terminal);
         let set = parse_parameters(&self.set, &found.scene)?;
-        let values = values_of(&found.model, &set);
         let watched = Watched::new(&found.model);
-        let engine = prepare_model(&found, &watched.model, terminal)?;
+        let mut config = Config::new();
+        config.matrices(false).functions([MASS_MATRIX]);
+        let engine = prepare_with(&found, &watched.model, &config, terminal)?;
         let info = engine.info();
-        let mut model = engine.in_double();
-        model.set_parameters(&values);
+        let mut model = engine.over::<f64>();
+        model.set_parameters(&values_of(&found.model, &set));
         if let Some(condition) = model.violated() {
             return Err(Error::Input(format!(
                 "a parameter cannot have this value: {}",
@@ -114,7 +116,7 @@ impl Arguments {
                 (0.0, state)
             }
         };
-        let outputs = watched.outputs(&*model, t, &state);
+        let outputs = watched.outputs(&model, t, &state);
         self.must_rest(info, &state, watched.acceleration(&outputs))?;
         let moving = (0..state.len()).filter(|&index| info.kind(index) == StateKind::Velocity);
         if let Some(speed) = moving.map(|index| state[index].abs()).reduce(f64::max)
@@ -125,69 +127,34 @@ impl Arguments {
                 digits(speed)
             ));
         }
+        let modes = modes_at(&model, t, &state)?;
+        let index = engine.function(MASS_MATRIX).expect("it was asked for");
+        let mut mass = vec![0.0; info.velocities.len().pow(2)];
+        let none = vec![0.0; info.velocities.len()];
+        model.function(index, t, &state, &none, &mut mass);
+        engine.check()?;
+        self.tell(terminal, &found.model.name, t, &modes, &mass, info)
+    }
 
-        // the outputs have no part in the modes
-        let mut alone = found.model.clone();
-        alone.outputs.clear();
-        alone.normalize();
-        let mut config = Config::new();
-        config.functions(["linearisation"]);
-        config.requests(&alone, &self.model).map_err(Error::Model)?;
-        let progress = Progress::deriving(terminal, &alone.name);
-        let linear = equations::of_lists(config.lists(&alone), None).map_err(Error::system)?;
-        drop(progress);
-        let mut batch = linear.batch(1);
-        batch.set_parameters(&values).map_err(Error::input)?;
-        // without outputs a model may have fewer memories
-        let state = named_as(linear.info(), info, &state).ok_or_else(|| {
-            Error::failed("the model without its outputs has another state".to_owned())
-        })?;
-        let (q, rest) = state.split_at(info.coordinates.len());
-        let (v, laws) = rest.split_at(info.velocities.len());
-        let rows = Rows {
-            time: t,
-            coordinates: q,
-            velocities: v,
-            states: laws,
-            ..Rows::default()
-        };
-        let mut evaluate = |wanted: Wanted| {
-            let mut results = vec![0.0; batch.length(wanted)];
-            let done = batch.evaluate(wanted, &rows, &mut results);
-            done.map(|()| results).map_err(Error::input)
-        };
-        let all = evaluate(Wanted::Function(0))?;
-        let mass = evaluate(Wanted::MassMatrix)?;
-        let function = &linear.functions()[0];
-        let (size, columns) = (function.rows.len(), function.columns.len());
-        let a: Vec<f64> = all
-            .chunks_exact(columns)
-            .flat_map(|row| &row[..size])
-            .copied()
-            .collect();
-        let found_modes = modes::modes(&a, size).map_err(|error| {
-            Error::failed(match error {
-                NoModes::NotFinite => {
-                    "the linearisation at this state has numbers that are not finite".to_owned()
-                }
-                NoModes::NotConverged => "the search for the modes did not converge".to_owned(),
-            })
-        })?;
-        let hidden = hidden(&found_modes);
+    /// Prints the modes, with what is to be said of them.
+    fn tell(
+        &self,
+        terminal: &mut Terminal,
+        name: &str,
+        t: f64,
+        modes: &[Mode],
+        mass: &[f64],
+        info: &Info,
+    ) -> Result<(), Error> {
+        let hidden = hidden(modes);
         let most = self.most.map_or(usize::MAX, |most| most as usize);
-        let shown: Vec<Shown<'_>> = found_modes
-            .iter()
-            .map(|mode| Shown {
-                shares: shares(mode, &mass, info),
-                free: mode.rate.norm() <= hidden,
-                mode,
-            })
-            .take(most)
-            .collect();
-        if let Some(worst) = found_modes
-            .iter()
-            .map(|mode| mode.residual)
-            .reduce(f64::max)
+        let shown = modes.iter().take(most).map(|mode| Shown {
+            shares: shares(mode, mass, info),
+            free: mode.rate.norm() <= hidden,
+            mode,
+        });
+        let shown: Vec<Shown<'_>> = shown.collect();
+        if let Some(worst) = modes.iter().map(|mode| mode.residual).reduce(f64::max)
             && worst > POOR
         {
             terminal.note(&format!(
@@ -195,25 +162,16 @@ impl Arguments {
             ));
         }
         if self.json {
-            return terminal.print_json(&self.as_json(
-                &found.model.name,
-                t,
-                hidden,
-                &function.columns[..size],
-                &shown,
-            ));
+            return terminal.print_json(&as_json(name, t, hidden, &names(info), &shown));
         }
         terminal.print(&table(&shown, terminal.width()))?;
-        if shown.iter().any(|mode| mode.free) {
+        if shown.iter().any(|one| one.free) {
             terminal.note(&format!(
                 "modes below {} Hz cannot be told from free motions beside the fastest mode",
                 digits(hidden / TAU)
             ));
         }
-        if shown
-            .iter()
-            .any(|mode| mode.mode.rate.re > 0.0 && !mode.free)
-        {
+        if shown.iter().any(|one| one.mode.rate.re > 0.0 && !one.free) {
             terminal.note("a mode grows: the state of rest is unstable");
         }
         Ok(())
@@ -249,52 +207,89 @@ impl Arguments {
             ))),
         }
     }
-
-    fn as_json(
-        &self,
-        model: &str,
-        t: f64,
-        hidden: f64,
-        names: &[String],
-        shown: &[Shown<'_>],
-    ) -> Value {
-        let modes: Vec<Value> = shown
-            .iter()
-            .map(|one| {
-                let rate = one.mode.rate;
-                let shape = names.iter().zip(&one.mode.shape);
-                let shape: Vec<Value> = shape
-                    .map(|(name, entry)| json!({ "name": name, "re": entry.re, "im": entry.im }))
-                    .collect();
-                let shares: Vec<Value> = one
-                    .shares
-                    .iter()
-                    .map(|(name, share)| json!({ "name": name, "share": share }))
-                    .collect();
-                json!({
-                    "rate_per_s": { "re": rate.re, "im": rate.im },
-                    "frequency_Hz": (rate.im != 0.0).then_some(rate.norm() / TAU),
-                    "damping": (rate.norm() > 0.0).then_some(-rate.re / rate.norm()),
-                    "free": one.free,
-                    "residual": one.mode.residual,
-                    "moves": shares,
-                    "shape": shape,
-                })
-            })
-            .collect();
-        json!({ "model": model, "t_s": t, "free_below_Hz": hidden / TAU, "modes": modes })
-    }
 }
 
-/// The state of another model that has the entries of `of` by name and kind; `None` if one is missing.
-fn named_as(of: &Info, info: &Info, state: &[f64]) -> Option<Vec<f64>> {
-    let entry = |index: usize| {
-        let (name, kind) = (of.state_name(index), of.kind(index));
-        let mut all = 0..info.state_length();
-        let found = all.find(|&i| info.state_name(i) == name && info.kind(i) == kind)?;
-        Some(state[found])
-    };
-    (0..of.state_length()).map(entry).collect()
+fn as_json(model: &str, t: f64, hidden: f64, names: &[String], shown: &[Shown<'_>]) -> Value {
+    let modes: Vec<Value> = shown
+        .iter()
+        .map(|one| {
+            let rate = one.mode.rate;
+            let shape = names.iter().zip(&one.mode.shape);
+            let shape: Vec<Value> = shape
+                .map(|(name, entry)| json!({ "name": name, "re": entry.re, "im": entry.im }))
+                .collect();
+            let shares: Vec<Value> = one
+                .shares
+                .iter()
+                .map(|(name, share)| json!({ "name": name, "share": share }))
+                .collect();
+            json!({
+                "rate_per_s": { "re": rate.re, "im": rate.im },
+                "frequency_Hz": (rate.im != 0.0).then_some(rate.norm() / TAU),
+                "damping": (rate.norm() > 0.0).then_some(-rate.re / rate.norm()),
+                "free": one.free,
+                "residual": one.mode.residual,
+                "moves": shares,
+                "shape": shape,
+            })
+        })
+        .collect();
+    json!({ "model": model, "t_s": t, "free_below_Hz": hidden / TAU, "modes": modes })
+}
+
+/// What the shapes have entries for: coordinates along the motion of their velocities, velocities, states of force laws.
+fn names(info: &Info) -> Vec<String> {
+    let along = info.velocities.iter().map(|name| format!("along {name}"));
+    let by = info.velocities.iter().chain(info.auxiliaries);
+    along.chain(by.map(|name| format!("by {name}"))).collect()
+}
+
+/// The modes at a state of rest.
+fn modes_at(model: &Evaluated<f64>, t: f64, state: &[f64]) -> Result<Vec<Mode>, Error> {
+    let (a, size) = linear(model, t, state);
+    modes::modes(&a, size).map_err(|error| {
+        Error::failed(match error {
+            NoModes::NotFinite => {
+                "the linearisation at this state has numbers that are not finite".to_owned()
+            }
+            NoModes::NotConverged => "the search for the modes did not converge".to_owned(),
+        })
+    })
+}
+
+/// A of ẋ = A x about a state in which nothing turns, by rows, and its size. x has the coordinates along the motion of each
+/// velocity, the velocities, and the states of force laws: δq = G ξ, where q̇ = G v. G is constant there, so ξ̇ = δv; the other
+/// rows are those of the Jacobian of ẏ, by dual numbers.
+fn linear(model: &Evaluated<f64>, t: f64, state: &[f64]) -> (Vec<f64>, usize) {
+    let info = model.info();
+    let (coordinates, count) = (info.coordinates.len(), info.velocities.len());
+    let (length, size) = (state.len(), 2 * count + info.auxiliaries.len());
+    let mut jacobian = vec![0.0; length * length];
+    if !model.jacobian(t, state, &mut jacobian, &mut vec![0.0; length]) {
+        unreachable!("an engine has a Jacobian");
+    }
+    let mut motions = vec![vec![0.0; length]; count];
+    for (velocity, motion) in motions.iter_mut().enumerate() {
+        let mut one = state.to_vec();
+        one[coordinates..][..count].fill(0.0);
+        one[coordinates + velocity] = 1.0;
+        model.coordinate_rates(&one, motion);
+    }
+    let mut a = vec![0.0; size * size];
+    for (row, entries) in a.chunks_exact_mut(size).enumerate() {
+        let Some(rate) = row.checked_sub(count) else {
+            entries[count + row] = 1.0;
+            continue;
+        };
+        let by_state = &jacobian[length * (coordinates + rate)..][..length];
+        let (by_place, by_rest) = entries.split_at_mut(count);
+        for (entry, motion) in by_place.iter_mut().zip(&motions) {
+            let terms = by_state.iter().zip(&motion[..coordinates]);
+            *entry = terms.map(|(by, motion)| by * motion).sum();
+        }
+        by_rest.copy_from_slice(&by_state[coordinates..][..by_rest.len()]);
+    }
+    (a, size)
 }
 
 /// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for each; a

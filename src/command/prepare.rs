@@ -42,9 +42,19 @@ pub fn prepare(found: &Found, terminal: &Terminal) -> Result<Prepared, Error> {
 
 /// Prepares the equations of `model`, which may differ from the model of `found` in numbers, curves and effects.
 pub fn prepare_model(found: &Found, model: &Model, terminal: &Terminal) -> Result<Prepared, Error> {
+    prepare_with(found, model, Config::new().matrices(false), terminal)
+}
+
+/// Prepares the equations of `model` as [`prepare_model`] does, with the functions and options of `config`.
+pub fn prepare_with(
+    found: &Found,
+    model: &Model,
+    config: &Config,
+    terminal: &Terminal,
+) -> Result<Prepared, Error> {
     let users = users_of(found, model, terminal)?;
     let progress = Progress::deriving(terminal, &model.name);
-    let engine = equations::with_users(model, users.clone()).map_err(Error::system);
+    let engine = equations::of_lists(config.lists(model), users.clone()).map_err(Error::system);
     drop(progress);
     Ok(Prepared {
         engine: engine?,

@@ -151,6 +151,37 @@ run: { duration: 1, every: 0.1 }
     assert!(said.contains("moves at up to 3.00 m/s"), "{said}");
 }
 
+/// Laws that cannot be differentiated in symbols can by dual numbers: an ellipsoid lies on another, m g/k deep.
+#[test]
+fn ellipsoids_that_push_each_other_ring() {
+    let folder = tempdir().unwrap();
+    let text = "\
+model: eggs
+dimension: 3
+systems:
+  - name: s
+    reference: fixed
+    elements: [{ name: upper, joint: { slider: z }, mass: 2, cg: [0, 0, 0], inertia: [1, 1, 1] }]
+forces:
+  - { field: gravity, acceleration: [0, 0, -9.81] }
+  - { contact: eggs, ellipsoid: { on: s/upper, center: [0, 0, 0], semi_axes: [0.1, 0.12, 0.05] }, with: { on: frame, center: [0, 0, -0.12019], semi_axes: [0.2, 0.1, 0.08] }, stiffness: 2000, damping: 4 }
+run: { duration: 1, every: 0.1 }
+";
+    let modes = found(folder.path(), text, &[]);
+    assert_eq!(modes.len(), 1);
+    near(
+        number(&modes[0]["frequency_Hz"]),
+        1000.0_f64.sqrt() / TAU,
+        1e-9,
+    );
+    // d/(2 √(k m))
+    near(
+        number(&modes[0]["damping"]),
+        4.0 / (2.0 * 4000.0_f64.sqrt()),
+        1e-8,
+    );
+}
+
 #[test]
 fn memory_of_an_output_is_no_part_of_the_modes() {
     let folder = tempdir().unwrap();
