@@ -277,7 +277,7 @@ class Casadi(Pinocchio):
     def of_function(self, robot, name):
         key = f"{robot['name']} {name}"
         if key not in self.programs:
-            source = f"{robot['name']}-{name}.c"
+            source = f"{robot['name']}_{name}.c"
             said = self._written(robot, source, [name])
             self.operations[key] = said["operations"]
             level = "-O3" if said["operations"] < MOST_FOR_O3 else "-O1"

@@ -195,7 +195,11 @@ fn main() -> Result<()> {
             println!("{}", numbers(&times));
             println!("{}", numbers(&end));
         }
-        _ => return Err("trees, names, start, accelerations, function or fall? See src/main.rs".into()),
+        _ => {
+            return Err(
+                "trees, names, start, accelerations, function or fall? See src/main.rs".into(),
+            );
+        }
     }
     Ok(())
 }
