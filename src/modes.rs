@@ -142,7 +142,7 @@ fn inverse_iteration(a: &Factors, begin: &DVector<Number>) -> Option<DVector<Num
 struct Factors {
     /// U, by rows.
     rows: Vec<Vec<Number>>,
-    /// For each row but the last, whether it was exchanged, and how often it was subtracted from the next.
+    /// For each row but the last, whether it was exchanged, and the multiple of it that was subtracted from the next.
     steps: Vec<(bool, Number)>,
 }
 

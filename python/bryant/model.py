@@ -22,7 +22,7 @@ class Contacts(NamedTuple):
     gap: NDArray
     """Positive while the surfaces are apart, negative while they overlap [m]: (contacts,)."""
     place: NDArray
-    """Where the force acts; while the surfaces are apart, half-way between the nearest points [m]: (contacts, 3)."""
+    """Where the force acts: the deepest point over a plane, half-way between the nearest points of two ellipsoids [m]: (contacts, 3)."""
     normal: NDArray
     """From the second body to the first, which has the contact's `ellipsoid`: (contacts, 3)."""
     force: NDArray

@@ -94,6 +94,13 @@ impl Arguments {
         config.matrices(false).functions([MASS_MATRIX]);
         let engine = prepare_with(&found, &watched.model, &config, terminal)?;
         let info = engine.info();
+        if info.velocities.is_empty() {
+            return Err(Error::Input(
+                "nothing in the model can move, so it has no modes\n  \
+                 help: give an element a joint that moves, or a system the reference joint `free`"
+                    .to_owned(),
+            ));
+        }
         let mut model = engine.over::<f64>();
         model.set_parameters(&values_of(&found.model, &set));
         if let Some(condition) = model.violated() {

@@ -124,7 +124,7 @@ fn planar(system: &str, force: &str, ball: bool) -> String {
 }
 
 /// Every command that reads a model.
-const COMMANDS: [&[&str]; 11] = [
+const COMMANDS: [&[&str]; 12] = [
     &["run", "s.yaml", "--no-files"],
     &["check", "s.yaml"],
     &["effects", "s.yaml", "--json"],
@@ -134,6 +134,7 @@ const COMMANDS: [&[&str]; 11] = [
     &["equations", "s.yaml", "--c"],
     &["equations", "s.yaml", "--json"],
     &["settle", "s.yaml"],
+    &["modes", "s.yaml"],
     &["gradient", "s.yaml", "--of", "final of x"],
     &[
         "accuracy",

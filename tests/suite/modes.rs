@@ -222,6 +222,20 @@ fn a_load_that_begins_later_ends_the_rest() {
 }
 
 #[test]
+fn what_cannot_move_has_no_modes() {
+    let folder = tempdir().unwrap();
+    let text = CARTS.replace("joint: { slider: x }", "joint: weld");
+    let text = text.replace("forces:\n  - { joint: s/a, stiffness: k, damping: d }\n  - { joint: s/b, stiffness: k, damping: d }\n  - { joint: s/c, stiffness: k, damping: d }\n", "");
+    let text = text.replace(
+        "parameters: { k: { value: 1000 N/m, min: 0 }, d: { value: 0, min: 0 } }\n",
+        "",
+    );
+    std::fs::write(folder.path().join("model.yaml"), text).unwrap();
+    let (_, said) = call(folder.path(), &["modes", "model.yaml"], 2);
+    assert!(said.contains("nothing in the model can move"), "{said}");
+}
+
+#[test]
 fn what_does_not_rest_has_no_modes() {
     let folder = tempdir().unwrap();
     let folder = folder.path();
