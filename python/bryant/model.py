@@ -370,7 +370,8 @@ class Model(_bryant.Model):
 
     def modes(self, start: str | os.PathLike[str] | None = None, **options: Any) -> list[dict[str, Any]]:
         """The modes about a state of rest, as `bryant modes` finds them, slowest first: frequency_Hz, damping, rate_per_s,
-        the shares of the kinetic energy, shapes. start: the file of a state, otherwise that in which runs start."""
+        the shares of the kinetic energy, shapes. start: the file of a state, otherwise that in which runs start. report="modes.html"
+        writes a page in which the mechanism moves in each of them."""
         found, _ = call_json("modes", self.path, start=start, set=self._changed(None), **options)
         return found["modes"]
 

@@ -1,13 +1,18 @@
 //! `bryant modes`: the small motions of a mechanism about a state of rest.
 
+mod page;
+
 use super::Error;
-use super::model_argument::find;
+use super::model_argument::{Found, find};
+use super::outputs::{Outputs, Replacing};
 use super::parameters::{parse_parameters, values_of};
 use super::prepare::prepare_with;
-use super::run::read_start;
+use super::run::{meshes_of, read_start};
 use super::settle::{STANDARD_GRAVITY, Watched};
 use super::terminal::Terminal;
 use crate::modes::{self, Mode, NoModes, Number, hidden};
+use crate::process::command_line;
+use crate::report;
 use crate::table::{Cells, side_by_side};
 use bryant_engine::Evaluated;
 use bryant_generator::Config;
@@ -15,7 +20,6 @@ use bryant_runtime::{Adjustable, Dynamics, Info, StateKind};
 use clap::Args;
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
 /// List the modes of a mechanism about a state of rest: frequencies, damping, shapes
@@ -34,6 +38,7 @@ phase in complex numbers; the largest is 1.
 
 Examples:
   bryant modes robot-arm --start rest.json           about the state that `bryant settle robot-arm -o rest.json` found
+  bryant modes robot-arm --start rest.json --report modes.html
   bryant modes my.yaml                               about the start of runs, if the model rests there
   bryant modes my.yaml --set stiffness='40 kN/m' --json > modes.json")]
 pub struct Arguments {
@@ -55,7 +60,17 @@ pub struct Arguments {
     /// Print the modes with their shapes as JSON
     #[arg(long)]
     json: bool,
+
+    /// Write a report: one page of HTML in which the mechanism moves in each of its modes; any browser shows it, without a network
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+
+    #[command(flatten)]
+    replacing: Replacing,
 }
+
+/// A page has this many modes at most: some megabytes.
+const MOST_DRAWN: usize = 100;
 
 /// The acceleration of a centre of gravity up to which a state is one of rest \[m/s²\], as for `bryant settle`; and the
 /// angular velocity \[rad/s\].
@@ -88,6 +103,10 @@ impl Arguments {
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         let found = find(&self.model)?;
         found.tell(terminal);
+        if let Some(path) = &self.report {
+            let read = found.files.iter().chain(&self.start);
+            Outputs::of(read, self.replacing).take_report(path)?;
+        }
         let set = parse_parameters(&self.set, &found.scene)?;
         let watched = Watched::new(&found.model);
         let mut config = Config::new();
@@ -102,7 +121,8 @@ impl Arguments {
             ));
         }
         let mut model = engine.over::<f64>();
-        model.set_parameters(&values_of(&found.model, &set));
+        let parameters = values_of(&found.model, &set);
+        model.set_parameters(&parameters);
         if let Some(condition) = model.violated() {
             return Err(Error::Input(format!(
                 "a parameter cannot have this value: {}",
@@ -134,54 +154,82 @@ impl Arguments {
                 digits(speed)
             ));
         }
-        let modes = modes_at(&model, t, &state)?;
         let index = engine.function(MASS_MATRIX).expect("it was asked for");
         let mut mass = vec![0.0; info.velocities.len().pow(2)];
         let none = vec![0.0; info.velocities.len()];
         model.function(index, t, &state, &none, &mut mass);
+        let modes = modes_at(&model, t, &state, &mass)?;
         engine.check()?;
-        self.tell(terminal, &found.model.name, t, &modes, &mass, info)
-    }
-
-    /// Prints the modes, with what is to be said of them.
-    fn tell(
-        &self,
-        terminal: &mut Terminal,
-        name: &str,
-        t: f64,
-        modes: &[Mode],
-        mass: &[f64],
-        info: &Info,
-    ) -> Result<(), Error> {
-        let hidden = hidden(modes);
+        let hidden = hidden(&modes);
         let most = self.most.map_or(usize::MAX, |most| most as usize);
         let shown = modes.iter().take(most).map(|mode| Shown {
-            shares: shares(mode, mass, info),
+            shares: shares(mode, &mass, info),
             free: mode.rate.norm() <= hidden,
             mode,
         });
         let shown: Vec<Shown<'_>> = shown.collect();
-        if let Some(worst) = modes.iter().map(|mode| mode.residual).reduce(f64::max)
-            && worst > POOR
-        {
-            terminal.note(&format!(
-                "warning: shapes hold to {worst:.0e} only: modes nearly coincide"
-            ));
-        }
+        let mut notes = notes(&modes, &shown, hidden);
         if self.json {
-            return terminal.print_json(&as_json(name, t, hidden, &names(info), &shown));
+            terminal.print_json(&as_json(&found.model.name, t, hidden, &names(info), &shown))?;
+        } else {
+            terminal.print(&table(&shown, terminal.width()))?;
         }
-        terminal.print(&table(&shown, terminal.width()))?;
-        if shown.iter().any(|one| one.free) {
-            terminal.note(&format!(
-                "modes below {} Hz cannot be told from free motions beside the fastest mode",
-                digits(hidden / TAU)
+        if let Some(path) = &self.report {
+            let (meshes, about) = meshes_of(&found);
+            notes.extend(about);
+            let rest = page::Rest {
+                model: &found.model,
+                dynamics: &model,
+                parameters: &parameters,
+                t,
+                state: &state,
+                forces: watched.of_scene(&outputs),
+                meshes,
+            };
+            let page = self.page(&found, &rest, &shown, &notes)?;
+            crate::files::replace(path, |out| out.write_all(page.as_bytes()))
+                .map_err(Error::system)?;
+        }
+        notes.iter().for_each(|note| terminal.note(note));
+        Ok(())
+    }
+
+    /// The page of the modes.
+    fn page(
+        &self,
+        found: &Found,
+        rest: &page::Rest<'_>,
+        shown: &[Shown<'_>],
+        notes: &[String],
+    ) -> Result<String, Error> {
+        let drawn = &shown[..shown.len().min(MOST_DRAWN)];
+        let mut notes = notes.to_vec();
+        if drawn.len() < shown.len() {
+            notes.push(format!(
+                "the page has the slowest {MOST_DRAWN} of {} modes",
+                shown.len()
             ));
         }
-        if shown.iter().any(|one| one.mode.rate.re > 0.0 && !one.free) {
-            terminal.note("a mode grows: the state of rest is unstable");
-        }
-        Ok(())
+        let model = &found.model;
+        let title = match model.title.as_str() {
+            "" => &model.name,
+            title => title,
+        };
+        let title = format!("Modes of {title}");
+        let mut data = page::json(rest, drawn).map_err(Error::system)?;
+        let about = json!({
+            "title": title,
+            "model": model.name,
+            "version": env!("CARGO_PKG_VERSION"),
+            "digest": rest.dynamics.info().digest,
+            "command": command_line(),
+            "unstable": shown.iter().any(Shown::grows),
+            "notes": notes,
+        });
+        data.as_object_mut()
+            .expect("it is one")
+            .extend(about.as_object().expect("it is one").clone());
+        Ok(report::modes_page(&title, &data))
     }
 
     /// Fails if the state is none of rest.
@@ -214,6 +262,28 @@ impl Arguments {
             ))),
         }
     }
+}
+
+/// What is to be said of the modes.
+fn notes(modes: &[Mode], shown: &[Shown<'_>], hidden: f64) -> Vec<String> {
+    let mut notes = Vec::new();
+    if let Some(worst) = modes.iter().map(|mode| mode.residual).reduce(f64::max)
+        && worst > POOR
+    {
+        notes.push(format!(
+            "warning: shapes hold to {worst:.0e} only: modes nearly coincide"
+        ));
+    }
+    if shown.iter().any(|one| one.free) {
+        notes.push(format!(
+            "modes below {} Hz cannot be told from free motions beside the fastest mode",
+            digits(hidden / TAU)
+        ));
+    }
+    if shown.iter().any(Shown::grows) {
+        notes.push("a mode grows: the state of rest is unstable".to_owned());
+    }
+    notes
 }
 
 fn as_json(model: &str, t: f64, hidden: f64, names: &[String], shown: &[Shown<'_>]) -> Value {
@@ -252,9 +322,14 @@ fn names(info: &Info) -> Vec<String> {
 }
 
 /// The modes at a state of rest.
-fn modes_at(model: &Evaluated<f64>, t: f64, state: &[f64]) -> Result<Vec<Mode>, Error> {
+fn modes_at(
+    model: &Evaluated<f64>,
+    t: f64,
+    state: &[f64],
+    mass: &[f64],
+) -> Result<Vec<Mode>, Error> {
     let (a, size) = linear(model, t, state);
-    modes::modes(&a, size).map_err(|error| {
+    modes::modes(&a, size, mass).map_err(|error| {
         Error::failed(match error {
             NoModes::NotFinite => {
                 "the linearisation at this state has numbers that are not finite".to_owned()
@@ -310,8 +385,8 @@ fn shares<'a>(mode: &Mode, mass: &[f64], info: &'a Info) -> Vec<(&'a str, f64)> 
     };
     let mut shares: Vec<(&str, f64)> = (0..count).map(|i| (info.velocities[i], share(i))).collect();
     let sum: f64 = shares.iter().map(|(_, share)| share).sum();
-    if sum == 0.0 {
-        // nothing moves: states of force laws, by their size
+    if sum == 0.0 || mode.moves_nothing(count) {
+        // states of force laws, by their size
         let laws = info.auxiliaries.iter().zip(&rest[count.min(rest.len())..]);
         shares = laws.map(|(name, entry)| (*name, entry.norm())).collect();
     } else {
@@ -331,70 +406,82 @@ fn digits(value: f64) -> String {
     }
 }
 
+impl Shown<'_> {
+    /// Whether the state is unstable by this mode.
+    fn grows(&self) -> bool {
+        self.mode.rate.re > 0.0 && !self.free && !self.is_undamped()
+    }
+
+    fn oscillates(&self) -> bool {
+        self.mode.rate.im != 0.0 && !self.free
+    }
+
+    /// Whether the real part of the rate is no more than rounding of what is not damped.
+    fn is_undamped(&self) -> bool {
+        self.mode.rate.re.abs() <= 1e-9 * self.mode.rate.norm()
+    }
+
+    /// In Hz.
+    fn frequency(&self) -> String {
+        match self.oscillates() {
+            true => digits(self.mode.rate.norm() / TAU),
+            false => NONE.to_owned(),
+        }
+    }
+
+    /// In percent of the critical one.
+    fn damping(&self) -> String {
+        match self.oscillates() {
+            true if self.is_undamped() => "0".to_owned(),
+            true => digits(-100.0 * self.mode.rate.re / self.mode.rate.norm()),
+            false => NONE.to_owned(),
+        }
+    }
+
+    /// The time constant \[s\].
+    fn time(&self) -> String {
+        match self.mode.rate.re {
+            _ if self.free => "free".to_owned(),
+            _ if self.is_undamped() => NONE.to_owned(),
+            rate if rate > 0.0 => format!("{}, grows", digits(1.0 / rate)),
+            rate => digits(-1.0 / rate),
+        }
+    }
+
+    /// The largest shares of the kinetic energy.
+    fn moves(&self) -> String {
+        let shares = self.shares.iter().filter(|(_, share)| *share >= SMALL);
+        let words = shares
+            .take(MANY)
+            .map(|(name, share)| format!("{name} {:.0} %", 100.0 * share));
+        words.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// In place of a number that a mode does not have.
+const NONE: &str = "-";
+
 /// The modes as aligned columns; those that are free, which come first, in one row.
 fn table(shown: &[Shown<'_>], width: Option<usize>) -> String {
     let free = shown.iter().take_while(|one| one.free).count();
     let skipped = free.saturating_sub(1);
     let rows = &shown[skipped..];
     let column = |text: &dyn Fn(&Shown<'_>) -> String| rows.iter().map(text).collect::<Vec<_>>();
-    let none = || "-".to_owned();
     let numbers = (1 + skipped..=shown.len()).map(|number| match number == free && skipped > 0 {
         true => format!("1 to {free}"),
         false => number.to_string(),
     });
+    // those that are free share their motions
+    let moves = |one: &Shown<'_>| match one.free && skipped > 0 {
+        true => String::new(),
+        false => one.moves(),
+    };
     let columns = [
         Cells::of_words("mode", "", numbers.collect()),
-        Cells::of_words(
-            "frequency",
-            "Hz",
-            column(&|one| match one.mode.rate.im != 0.0 && !one.free {
-                true => digits(one.mode.rate.norm() / TAU),
-                false => none(),
-            }),
-        ),
-        Cells::of_words(
-            "damping",
-            "%",
-            column(&|one| match one.mode.rate.im != 0.0 && !one.free {
-                // rounding of what is not damped
-                true if one.mode.rate.re.abs() <= 1e-9 * one.mode.rate.norm() => "0".to_owned(),
-                true => digits(-100.0 * one.mode.rate.re / one.mode.rate.norm()),
-                false => none(),
-            }),
-        ),
-        Cells::of_words(
-            "time",
-            "s",
-            column(&|one| match one.mode.rate {
-                _ if one.free => "free".to_owned(),
-                rate if rate.re.abs() <= 1e-9 * rate.norm() => none(),
-                rate if rate.re > 0.0 => format!("{}, grows", digits(1.0 / rate.re)),
-                rate => digits(-1.0 / rate.re),
-            }),
-        ),
-        Cells::of_words(
-            "moves",
-            "",
-            column(&|one| {
-                let mut words = String::new();
-                // those that coincide share their motions
-                let shares = if one.free && skipped > 0 {
-                    &[][..]
-                } else {
-                    &one.shares[..]
-                };
-                for (name, share) in shares
-                    .iter()
-                    .filter(|(_, share)| *share >= SMALL)
-                    .take(MANY)
-                {
-                    let comma = if words.is_empty() { "" } else { ", " };
-                    let _ = write!(words, "{comma}{name} {:.0} %", 100.0 * share);
-                }
-                words
-            }),
-        )
-        .left_aligned(),
+        Cells::of_words("frequency", "Hz", column(&|one| one.frequency())),
+        Cells::of_words("damping", "%", column(&|one| one.damping())),
+        Cells::of_words("time", "s", column(&|one| one.time())),
+        Cells::of_words("moves", "", column(&moves)).left_aligned(),
     ];
     side_by_side(&columns, width)
 }

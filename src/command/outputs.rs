@@ -41,6 +41,19 @@ impl Outputs {
         }
     }
 
+    /// Reserves the place of a page that `--report` writes.
+    ///
+    /// # Errors
+    /// As for [`take`](Self::take); a page is not printed.
+    pub fn take_report(&mut self, path: &Path) -> Result<(), Error> {
+        if is_standard(path) {
+            return Err(Error::Input(
+                "--report -: a report is a page for a browser and is not printed\n  help: name a file, as --report run.html".into(),
+            ));
+        }
+        self.take("--report", path, Kind::Report)
+    }
+
     /// Reserves the place of a result, which is the value of `option` or its default. Must be called before results are
     /// computed.
     ///

@@ -48,6 +48,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use files::Files;
 use remarks::{look_for_right_angle, remark};
 use responses::Responses;
+pub use scene::meshes_of;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 

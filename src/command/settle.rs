@@ -337,6 +337,8 @@ fn text(
 /// The model with additional outputs, which the search and its result need.
 pub(super) struct Watched {
     pub model: Model,
+    /// Number of outputs of the model itself.
+    own: usize,
     /// Names of contacts, belts, springs and bushings, each with the index of the first of its three outputs.
     forces: Vec<(String, usize)>,
     /// The index of the first output for elements, and the names of the elements. Each has two outputs: its
@@ -407,6 +409,7 @@ impl Watched {
         }
         Watched {
             model: watched,
+            own,
             forces,
             elements: (first_element, elements),
             roots,
@@ -423,6 +426,11 @@ impl Watched {
         let mut outputs = vec![0.0; self.model.outputs.len()];
         model.outputs(t, state, &mut outputs);
         outputs
+    }
+
+    /// Those that a scene with forces asks for.
+    pub fn of_scene<'a>(&self, outputs: &'a [f64]) -> &'a [f64] {
+        &outputs[self.own..self.elements.0]
     }
 
     /// The largest acceleration of a centre of gravity \[m/s²\], and the name of its element.

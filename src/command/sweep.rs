@@ -12,7 +12,6 @@ use crate::interrupt;
 use crate::picture::Format;
 use crate::process::command_line;
 use crate::report::study::{About, Judged};
-use crate::signature::Kind;
 use crate::sweep::{self, KeptError, Lanes};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::{read_file, shown, unreadable};
@@ -132,7 +131,7 @@ impl Arguments {
             let rows = file.rows_from().map(|rows| directory.join(rows));
             let read = found.files.iter().chain([&self.study]).chain(&rows);
             let mut outputs = Outputs::of(read, self.replacing);
-            outputs.take("--report", path, Kind::Report)?;
+            outputs.take_report(path)?;
         }
 
         let width = self.lanes.unwrap_or_else(Width::widest);

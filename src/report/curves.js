@@ -1,7 +1,5 @@
 // Outputs over time: a plot for each quantity, and one cursor for all plots and the motion.
-const columns = data.columns || [];
 const clock = data.times || [];
-const plots = [];
 let zoomed = null;
 // The time under the pointer, where there is one in a plot [s].
 let pointed = null;

@@ -3,6 +3,10 @@ const scene = data.scene;
 const times = scene ? scene.times : [];
 const camera = new Camera();
 const listeners = [];
+// The outputs of a run and their plots; the page of modes has none. Its motion is one loop, and its times are parts of it.
+const columns = data.columns || [];
+const plots = [];
+const loops = Boolean(data.modes);
 let now = times.length ? times[0] : 0;
 let playing = false;
 
@@ -66,14 +70,22 @@ const meshes = (scene ? scene.meshes : []).map((m) => {
   return { body: m.body, mesh: { places, corners: m.wide ? new Uint32Array(corners) : new Uint16Array(corners) } };
 });
 
-// The second run, in grey, under the first.
-function ghost(t, shapes) {
-  const { scene } = data.beside, grey = rgb("#9aa4b0");
-  const moment = framesAt(Math.min(t, scene.times[scene.times.length - 1]), scene), { frames } = moment;
+// Other positions in grey: of the second run at this time, or the ends of the motion of a mode, through which one sees.
+function ghosts(t, shapes) {
+  if (data.beside) ghost(data.beside.scene, Math.min(t, data.beside.scene.times[data.beside.scene.times.length - 1]), shapes, shapes.ellipsoids);
+  if (loops) for (const end of ends()) ghost(scene, end, shapes, shapes.bags);
+}
+function ghost(scene, t, shapes, solids) {
+  const grey = rgb("#9aa4b0"), moment = framesAt(t, scene), { frames } = moment;
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
       if (e.body < 0 || e.size || !isShown(e.body)) continue;
-      shapes.ellipsoids.push(solid(frames, e, mixed(grey, [1, 1, 1], 0.35)));
+      solids.push(solid(frames, e, mixed(grey, [1, 1, 1], 0.35)));
+    }
+  }
+  if (loops && byId("show-shapes").checked) {
+    for (const { body, mesh } of meshes) {
+      if (body >= 0 && isShown(body)) shapes.meshes.push({ mesh, origin: frames[body].at, turn: frames[body].turn, colour: grey, alpha: 0.2 });
     }
   }
   for (const [a, p, b, q] of scene.bones) shapes.strokes.push({ from: pointOf(frames, a, p), to: pointOf(frames, b, q), colour: grey, width: 3.5, above: scene.planar });
@@ -102,7 +114,7 @@ const traceable = scene ? [...scene.bodies.map((body, index) => ({ name: body.na
 function shapesAt(t) {
   const moment = framesAt(t), { frames, k } = moment;
   const shapes = { ellipsoids: [], bags: [], meshes: [], faces: [], strokes: [], texts: [] };
-  if (data.beside && byId("show-beside").checked) ghost(t, shapes);
+  if (byId("show-beside").checked || (printing && loops)) ghosts(t, shapes);
   const ink = rgb(style("--ink").length === 7 ? style("--ink") : "#1a1d21");
   if (byId("show-shapes").checked) {
     for (const e of scene.ellipsoids) {
@@ -163,7 +175,7 @@ function shapesAt(t) {
   if (traced >= 0) {
     const { body, at } = traceable[traced];
     const path = times.map((t) => pointOf(framesAt(t).frames, body, at));
-    for (let i = 1; i < path.length && times[i] <= t; i++) shapes.strokes.push({ from: path[i - 1], to: path[i], colour: rgb("#cc79a7"), width: 2, above: true });
+    for (let i = 1; i < path.length && (loops || times[i] <= t); i++) shapes.strokes.push({ from: path[i - 1], to: path[i], colour: rgb("#cc79a7"), width: 2, above: true });
   }
   return { shapes, frames };
 }
@@ -179,9 +191,10 @@ function frameAll() {
     low[i] = Math.min(low[i], x - origin[i] - margin);
     high[i] = Math.max(high[i], x - origin[i] + margin);
   });
-  const first = Math.max(1, Math.floor(times.length / 60));
-  for (let k = 0; k < times.length; k += first) {
-    const { frames } = framesAt(times[k]);
+  // of modes the poses are in `data.scene` one after the other
+  const poses = scene.frames.length, first = Math.max(1, Math.floor(poses / 60));
+  for (let k = 0; k < poses; k += first) {
+    const { frames } = framesAt(k, { ...scene, times: scene.frames.map((_, index) => index) });
     origin = placeOf(frames);
     frames.forEach((frame, body) => { if (scene.bodies[body].system >= 0) include(frame.at, 0); });
     for (const [a, p, b, q] of scene.bones) { include(pointOf(frames, a, p), 0); include(pointOf(frames, b, q), 0); }
@@ -234,7 +247,7 @@ function render() {
   renderer.draw(camera, shapes);
   labels(shapes.texts);
   camera.half = half;
-  byId("clock").textContent = `${timeText(now)} ${TIME.unit}`;
+  byId("clock").textContent = loops ? partText(now) : `${timeText(now)} ${TIME.unit}`;
 }
 // A bar of a round length, and the axes.
 function labels(texts) {
@@ -282,8 +295,8 @@ function play(on) {
     if (!playing) return;
     const t = now + ((clock - before) / 1000) * Number(byId("speed").value);
     before = clock;
-    setTime(t);
-    if (t >= times[times.length - 1]) play(false);
+    setTime(loops ? t % 1 : t);
+    if (!loops && t >= times[times.length - 1]) play(false);
     else requestAnimationFrame(step);
   };
   requestAnimationFrame(step);
@@ -356,11 +369,11 @@ function startMotion() {
   slider.max = times[times.length - 1];
   slider.addEventListener("input", () => { play(false); setTime(Number(slider.value)); });
   byId("play").addEventListener("click", () => play(!playing));
-  // playback takes about four seconds for any run
-  const natural = (times[times.length - 1] - times[0]) / 4;
-  const speeds = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
+  // playback takes about four seconds for any run, two for a mode
+  const natural = (times[times.length - 1] - times[0]) / (loops ? 2 : 4);
+  const speeds = loops ? [2, 1, 0.5, 0.2, 0.1] : [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001];
   const usual = speeds.reduce((best, s) => (Math.abs(Math.log(s / natural)) < Math.abs(Math.log(best / natural)) ? s : best));
-  for (const s of speeds) byId("speed").append(element("option", s === 1 ? "real time" : `1 : ${Math.round(1 / s)}`, { value: s }));
+  for (const s of speeds) byId("speed").append(element("option", loops ? `${readable(1 / s)} s` : s === 1 ? "real time" : `1 : ${Math.round(1 / s)}`, { value: s }));
   byId("speed").value = usual;
   // a motion in the plane is seen from the side alone: the button shows all of it again
   for (const name of scene.planar ? ["side"] : Object.keys(VIEWS)) {
@@ -376,13 +389,14 @@ function startMotion() {
       redraw();
     });
   }
-  byId("beside").hidden = !data.beside;
+  byId("beside").hidden = !data.beside && !loops;
+  if (loops) byId("beside-name").textContent = "ends of the motion";
   for (const id of ["show-forces", "show-numbers", "show-shapes", "show-beside"]) byId(id).addEventListener("change", redraw);
   byId("picture").addEventListener("click", () => { render(); save(byId("scene"), `${data.model}.png`); });
   const strongest = Math.max(0, ...scene.pushes.flatMap((list) => list.map((p) => Math.hypot(p[4], p[5], p[6]))));
   const tightest = Math.max(0, ...scene.lines.filter((l) => l.kind === "belt").flatMap((l) => l.force));
-  const words = [];
-  if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack, from orange to dark red up to ${newtons(tightest)}.`);
+  const words = loops ? ["Forces are those at rest."] : [];
+  if (scene.lines.some((l) => l.kind === "belt")) words.push(`Belts: grey while slack${tightest > 0 ? `, from orange to dark red up to ${newtons(tightest)}` : ""}.`);
   if (strongest > 0) words.push(`Arrows: forces of contacts on bodies; their length is proportional to the square root of the force, the longest is ${newtons(strongest)}.`);
   if (data.beside) words.push(`Grey: the run with ${data.beside.label}.`);
   byId("legend").textContent = words.join(" ");
@@ -396,8 +410,9 @@ function startMotion() {
   new ResizeObserver(redraw).observe(byId("stage"));
   onPaper(() => {
     // at rest there is little to see: paper has the first peak, unless another time was chosen
-    const [peak] = data.result.peaks, chosen = now;
-    if (printing && now === times[0] && peak) now = peak.time_s;
+    const chosen = now;
+    if (printing && loops) now = middle();
+    else if (printing && now === times[0] && data.result.peaks.length) now = data.result.peaks[0].time_s;
     render();
     now = chosen;
   });

@@ -69,7 +69,7 @@ function choose(part) {
 }
 function tell() {
   const box = byId("about");
-  if (chosenPart === null) { box.replaceChildren(element("p", "Click on a part to see its outputs.", { class: "hint" })); return; }
+  if (chosenPart === null) { box.replaceChildren(element("p", columns.length ? "Click on a part to see its outputs." : "Click on a part to mark it.", { class: "hint" })); return; }
   const law = laws.indexOf(chosenPart), { k } = framesAt(now);
   const of = columns.map((column, index) => index).filter((index) => (law < 0 ? columns[index].bodies : columns[index].laws).includes(law < 0 ? chosenPart : law));
   const rows = of.map((index) => {
@@ -87,7 +87,7 @@ function tell() {
   const acting = [...pushes.map(([index, , , , ...force]) => [laws[index], newtons(norm(force))]), ...pulls.map((line) => [lawOf(line), newtons(Math.abs(line.force[k]))])];
   const parts = [element("h3", nameOf(chosenPart))];
   if (rows.length) parts.push(table([["output", false], ["value", true], ["unit", false]], rows));
-  else parts.push(element("p", "No output is of this part.", { class: "hint" }));
+  else if (columns.length) parts.push(element("p", "No output is of this part.", { class: "hint" }));
   if (acting.length) parts.push(table([["acts on it", false], ["force", true]], acting));
   box.replaceChildren(...parts);
 }

@@ -102,6 +102,47 @@ impl Scene {
         }
     }
 
+    /// The diagonal of the box around what moves by its equations, at a time \[m\].
+    pub fn size(&self, k: usize) -> f64 {
+        let [low, high] = self.boxed(&[k], None);
+        length(from_to(low, high))
+    }
+
+    /// How far what is drawn of a body is from where it was at another time: the largest displacement of a point \[m\]. Of a body that
+    /// curves, the points are those in 26 directions from its middle.
+    pub fn displacement(&self, from: usize, k: usize) -> f64 {
+        let bones = self.bones.iter().flatten().copied();
+        let ends = self.lines.iter().flat_map(|line| &line.points).copied();
+        let planes = self.planes.iter().flat_map(|plane| {
+            let body = plane.body;
+            plane.corners.iter().map(move |&at| Place { body, at })
+        });
+        let meshes = self.meshes.iter().flat_map(|mesh| {
+            let body = mesh.body;
+            mesh.triangles
+                .places
+                .iter()
+                .map(move |&at| Place { body, at })
+        });
+        let points = bones.chain(ends).chain(planes).chain(meshes);
+        let moved = points.map(|place| from_to(self.point(from, place), self.point(k, place)));
+        let round = self.ellipsoids.iter().flat_map(|e| {
+            let [before, after] = [from, k].map(|k| (self.point(k, e.center), self.axes(k, e)));
+            (0..27).map(move |n| {
+                let signs = [n % 3, n / 3 % 3, n / 9].map(|digit| f64::from(digit) - 1.0);
+                let degree = f64::from(e.degree);
+                let sum: f64 = signs.iter().map(|sign| sign.abs()).sum();
+                let reach = libm::pow(sum.max(1.0), -1.0 / degree);
+                let at = |(center, axes): ([f64; 3], [Vec3; 3])| -> Vec3 {
+                    let off = |i: usize| (0..3).map(|j| signs[j] * axes[j][i]).sum::<f64>();
+                    std::array::from_fn(|i| center[i] + reach * off(i))
+                };
+                from_to(at(before), at(after))
+            })
+        });
+        moved.chain(round).map(length).fold(0.0, f64::max)
+    }
+
     /// The box around the whole motion, as one sees it who moves with a body.
     pub fn around(&self, followed: Option<usize>) -> [Vec3; 2] {
         self.boxed(&self.looked_at().collect::<Vec<_>>(), followed)

@@ -84,9 +84,9 @@ class Browser:
 
 
 class Page:
-    """A page in a window of this size. With `touch` it is a phone: the pointer is a finger."""
+    """A page in a window of this size. With `touch` it is a phone: the pointer is a finger. With `still` its reader wants no motion."""
 
-    def __init__(self, browser, url, size=(1280, 900), touch=False, dark=False):
+    def __init__(self, browser, url, size=(1280, 900), touch=False, dark=False, still=False):
         self.browser = browser
         self.target = browser.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = browser.call("Target.attachToTarget", targetId=self.target, flatten=True)["sessionId"]
@@ -95,8 +95,9 @@ class Page:
         width, height = size
         self("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=2 if touch else 1, mobile=touch)
         self("Emulation.setTouchEmulationEnabled", enabled=touch, maxTouchPoints=5)
-        scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
-        self("Emulation.setEmulatedMedia", features=scheme)
+        scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
+        motion = {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}
+        self("Emulation.setEmulatedMedia", features=[scheme, motion])
         began = time.monotonic()
         self("Page.navigate", url=url)
         self.wait("document.documentElement?.dataset.made === 'yes'")

@@ -83,7 +83,7 @@ def looks(browser, url):
         whole(page)
         expect(ground(page) > 600, "the page is dark without being asked")
         order = page.js("[...document.querySelectorAll('main h2')].map((e) => e.textContent)")
-        expect(order[0] == "Result" and order[-1] == "To make it again", order)
+        expect(order[0] in ["Result", "Modes"] and order[-1] == "To make it again", order)
     with Page(browser, url, dark=True) as page:
         whole(page)
         expect(ground(page) < 150, "the page is bright in the dark")
@@ -127,7 +127,7 @@ def scrolls(browser, url):
 
 def keys(browser, url):
     """Every control is reached by the key Tab, and is seen to be."""
-    with Page(browser, url) as page:
+    with Page(browser, url, still=True) as page:
         wanted = page.js("""(window.seen = new Set(), [...document.querySelectorAll('button, select, summary, input, canvas[tabindex], a')].filter((e) => e.checkVisibility()).length)""")
         for _ in range(wanted + 5):
             page.key("Tab")
@@ -401,6 +401,61 @@ def study(browser, url, results):
         whole(page)
 
 
+def modes(browser, url):
+    """A mode is chosen by a click and by keys, moves by itself unless motion is unwelcome, and the bars go with it."""
+    picture = "(render(), byId('scene').toDataURL())"
+    with Page(browser, url) as page:
+        whole(page)
+        expect(page.js("playing"), "the mode does not move")
+        page.press("byId('play')")
+        expect(not page.js("playing"), "the motion does not stop")
+        page.js("setTime(0)")
+        first = page.js(picture)
+        chosen = "[...byId('modes').querySelectorAll('tbody tr')].map((row) => row.className + row.querySelector('button').ariaPressed)"
+        last = page.js("data.modes.length") - 1
+        row = "byId('modes').querySelectorAll('tbody tr')[{}].querySelector('button')"
+        page.press(row.format(last))
+        page.js("setTime(0)")
+        expect(page.js("chosenMode") == last and page.js(chosen)[last] == "chosentrue", "a click does not choose a mode")
+        expect(page.js(picture) != first, "another mode looks the same")
+        page.key("ArrowUp")
+        expect(page.js("chosenMode") == last - 1 and page.js("document.activeElement.textContent") == str(last), "a key does not choose a mode")
+        # poses of the page are what is drawn: those at the beginning of a mode that swings are farthest from those after half a period
+        page.js("chooseMode(data.modes.findIndex((mode) => mode.course === 'oscillates'))")
+        told = page.js("byId('drawn').textContent")
+        expect("mm from rest" in told and "Hz" in told, told)
+        far = page.js("Math.max(...scene.frames[0].map((x, i) => Math.abs(x - scene.frames[(times.length - 1) / 2][i])))")
+        expect(far > 1e-2, f"the ends of a mode are {far} m apart")
+        bars = "[...byId('shape').querySelectorAll('.swing i')].map((e) => e.getBoundingClientRect().width)"
+        page.js("setTime(0)")
+        wide = page.js(bars)
+        page.js("setTime(0.25)")
+        expect(wide[0] > 5 and page.js(bars)[0] < 1, f"the bars do not swing: {wide}")
+        before = page.js(picture)
+        page.press("byId('show-beside')")
+        expect(page.js(picture) != before, "the ends of the motion are not drawn")
+        # on paper they always are
+        page.press("byId('show-beside')")
+        printed = page.js(f"(paper(true), {picture})")
+        page.js("byId('show-beside').checked = true")
+        both = page.js(f"(repaint(), {picture})")
+        expect(printed == both, "on paper the ends of the motion are left out")
+        page.js("paper(false)")
+        whole(page)
+    with Page(browser, url, still=True) as page:
+        whole(page)
+        expect(not page.js("playing") and page.js("byId('show-beside').checked"), "the page moves although motion is unwelcome")
+        still = page.js("now")
+        page.settle()
+        expect(page.js("now") == still, "the page moves although motion is unwelcome")
+
+
+def starts(browser, url):
+    """The address says which mode is first."""
+    with Page(browser, f"{url}#mode=2") as page:
+        expect(page.js("chosenMode") == 1, "another mode is first than that of the address")
+
+
 def printed(browser, url, most):
     """A report fits on this many pages of A4 and of letter paper, in the dark, too."""
     for dark in [False, True]:
@@ -443,14 +498,18 @@ def main():
     (folder / "fall.yaml").write_text(FALL)
     fall = run("run", "fall.yaml", "--no-files", "--report", "fall.html")
     broken = run("run", "child-seat", "--no-files", "--max-steps", "200", "--report", "broken.html", code=3)
+    run("settle", "robot-arm", "--force", "-o", "rest.json")
+    ring = run("modes", "robot-arm", "--start", "rest.json", "--report", "modes.html")
     checks = [
         (failed, broken),
         (long, fall),
-        *[(looks, url) for url in [seat, frontal, laid, many]],
-        *[(printed, url, 2) for url in [seat, frontal, many]],
-        *[(keys, url) for url in [seat, many]],
+        *[(looks, url) for url in [seat, frontal, laid, many, ring]],
+        *[(printed, url, 2) for url in [seat, frontal, many, ring]],
+        *[(keys, url) for url in [seat, many, ring]],
         (scrolls, seat),
         (limits, frontal),
+        (modes, ring),
+        (starts, ring),
         (readings, seat, rows),
         (legend, seat),
         (parts, seat, rows),

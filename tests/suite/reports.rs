@@ -9,7 +9,12 @@ fn report(directory: &Path, model: &str, more: &[&str]) -> (String, Value) {
     let mut arguments = vec!["run", model, "--no-files", "--report", "report.html"];
     arguments.extend(more);
     call(directory, &arguments, 0);
-    let page = std::fs::read_to_string(directory.join("report.html")).unwrap();
+    page(&directory.join("report.html"))
+}
+
+/// A page, and the data in it.
+pub fn page(path: &Path) -> (String, Value) {
+    let page = std::fs::read_to_string(path).unwrap();
     let data = page.split("id=\"data\">").nth(1).unwrap();
     let data = data.split("</script>").next().unwrap();
     let data = serde_json::from_str(data).unwrap();

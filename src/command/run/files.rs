@@ -94,12 +94,7 @@ impl Files {
             outputs.take(option, path, kind)?;
         }
         if let Some(path) = &arguments.report {
-            if is_standard(path) {
-                return Err(Error::Input(
-                    "--report -: a report is a page for a browser and is not printed\n  help: name a file, as --report run.html".into(),
-                ));
-            }
-            outputs.take("--report", path, Kind::Report)?;
+            outputs.take_report(path)?;
         }
         let (plots, corridors) = plots(arguments, model, &directory, &mut outputs)?;
         Ok(Files {

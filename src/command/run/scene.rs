@@ -20,6 +20,14 @@ const SMALL: f64 = 1e-9;
 /// The note that there are no forces.
 const APART: &str = "forces between bodies are not shown: other outputs, computed beside them, differ from those of the run";
 
+/// The meshes of a model, and the notes about them.
+pub fn meshes_of(found: &Found) -> (Vec<Mesh>, Vec<String>) {
+    let (meshes, notes) = meshes(&found.model);
+    let cautions = caution::meshes(&found.scene).into_iter();
+    let cautions = cautions.map(|caution| format!("warning: {caution}"));
+    (meshes, cautions.chain(notes).collect())
+}
+
 /// Makes scenes of runs of one model.
 pub struct Shown<'a> {
     /// The model.
@@ -88,10 +96,8 @@ impl<'a> Shown<'a> {
         let scene = Scene::new(model, &recording.coordinates, &parameters, instants, forces);
         let mut scene = scene.map_err(Error::system)?;
         let meshes = self.meshes.get_or_init(|| {
-            let (meshes, notes) = meshes(model);
-            let cautions = caution::meshes(&self.found.scene).into_iter();
-            let cautions = cautions.map(|caution| format!("warning: {caution}"));
-            self.notes.borrow_mut().extend(cautions.chain(notes));
+            let (meshes, notes) = meshes_of(self.found);
+            self.notes.borrow_mut().extend(notes);
             meshes
         });
         scene.meshes.clone_from(meshes);
