@@ -3,13 +3,13 @@
 import json
 import os
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _bryant
+from . import _bryant, differentiable
 from ._command import call, call_json
 from .run import Run
 from .study import Study
@@ -269,6 +269,21 @@ class Model(_bryant.Model):
             both = _exponential(dt * both)
             a, b = both[..., :x, :x], both[..., :x, x:]
         return a, b, c, d
+
+    # -- functions of other libraries
+
+    def jax(self) -> Callable[..., Any]:
+        """The accelerations as a function f(q, v, u=None) of JAX, under `jit`, `vmap`, `grad` and the like, of one state (n,) or of many.
+
+        Its first derivatives are the exact ones of `linearise`, with all forces; there are no second ones. Quaternions are scaled to length 1
+        first. Without u the inputs are those of `parameters` when it is called. The engine computes doubles on the processor; JAX passes floats
+        of 32 bits unless jax_enable_x64 is set.
+        """
+        return differentiable.of_jax(self)
+
+    def torch(self) -> Callable[..., Any]:
+        """The accelerations as a function f(q, v, u=None) of PyTorch, with `backward`: see `jax`. The engine computes doubles on the processor."""
+        return differentiable.of_torch(self)
 
     # -- motions
 
