@@ -5,7 +5,7 @@
 
 mod lanes;
 
-use crate::model::{Engine, Evaluated};
+use crate::model::{Engine, Evaluated, Varying};
 use bryant_generator::program::{Function, Method};
 use bryant_runtime::real::lanes::with_width;
 use bryant_runtime::{Adjustable, Dynamics, Info, Refusal, Section, Width};
@@ -128,7 +128,9 @@ impl std::error::Error for Misfit {}
 pub struct Batch {
     info: &'static Info,
     /// The parameters that each row has.
-    varying: Vec<usize>,
+    varying: Varying,
+    /// The least and the greatest value that each of them may have; finite, so that other values are beyond them.
+    limits: Vec<[f64; 2]>,
     /// All parameters \[SI\].
     parameters: Vec<f64>,
     /// Whether the engine has S, r_s and r_k.
@@ -189,7 +191,8 @@ impl Engine {
         };
         let mut batch = Batch {
             info,
-            varying: Vec::new(),
+            varying: Varying::default(),
+            limits: Vec::new(),
             parameters: info.parameters.iter().map(|of| of.default).collect(),
             matrices: !self.lists().list(Method::MassMatrix).results.is_empty(),
             functions: lengths(self.functions()),
@@ -210,7 +213,7 @@ impl Batch {
 
     /// The parameters that vary from row to row, as indices into [`Info::parameters`].
     pub fn varying(&self) -> &[usize] {
-        &self.varying
+        self.varying.indices()
     }
 
     /// Names the parameters that vary from row to row, as indices into [`Info::parameters`]: inputs, or any others.
@@ -223,7 +226,15 @@ impl Batch {
             "parameters of {}",
             self.info.name
         );
-        self.varying = parameters.to_vec();
+        self.varying = self.checks.varying(parameters);
+        let limits = parameters.iter().map(|index| {
+            let of = &self.info.parameters[*index];
+            match of.input {
+                true => [of.min.max(f64::MIN), of.max.min(f64::MAX)],
+                false => [f64::MIN, f64::MAX],
+            }
+        });
+        self.limits = limits.collect();
         self.conditional = self.checks.depends(Method::Conditions, parameters);
         // the values of a row that was refused stay in it until then
         self.checks.set_parameters(&self.parameters);
@@ -306,7 +317,7 @@ impl Batch {
         let (count, length) = (self.count(rows)?, self.length(wanted));
         fits("results", results.len(), count * length)?;
         if !rows.inputs.is_empty() {
-            fits("inputs", rows.inputs.len(), count * self.varying.len())?;
+            fits("inputs", rows.inputs.len(), count * self.varying().len())?;
             self.check(rows.inputs)?;
         }
         let work = |lanes: &mut dyn Lanes, range: Range<usize>, [results, _]: [&mut [f64]; 2]| {
@@ -335,7 +346,7 @@ impl Batch {
             Hold::Linear => rollout.steps + 1,
         };
         if !rows.inputs.is_empty() {
-            let needed = count * ticks * self.varying.len();
+            let needed = count * ticks * self.varying().len();
             fits("inputs", rows.inputs.len(), needed)?;
             self.check(rows.inputs)?;
         }
@@ -388,11 +399,16 @@ impl Batch {
 
     /// Refuses values that are not finite, outside of the limits of an input, or that break a condition.
     fn check(&mut self, inputs: &[f64]) -> Result<(), Misfit> {
-        for (row, values) in inputs.chunks_exact(self.varying.len().max(1)).enumerate() {
+        for (row, values) in inputs.chunks_exact(self.varying().len().max(1)).enumerate() {
             let info = self.info;
             let refused = |refusal| Misfit::Refused { row, refusal, info };
-            for (&index, &value) in self.varying.iter().zip(values) {
-                self.allowed(index, value).map_err(refused)?;
+            // without a branch for each value: most are allowed
+            let within = self.limits.iter().zip(values);
+            let within = within.map(|([min, max], value)| (min <= value) & (value <= max));
+            if !within.fold(true, |all, one| all & one) {
+                for (&index, &value) in self.varying().iter().zip(values) {
+                    self.allowed(index, value).map_err(refused)?;
+                }
             }
             if self.conditional {
                 self.checks.set_some(&self.varying, values);

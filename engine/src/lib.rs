@@ -74,5 +74,5 @@ pub use execute::{Execute, Given};
 pub use interpret::Interpreter;
 pub use kept::KeptError;
 pub use load::LoadError;
-pub use model::{Engine, Error, Evaluated, Interpreted, Machine};
+pub use model::{Engine, Error, Evaluated, Interpreted, Machine, Varying};
 pub use user::UserFunctions;

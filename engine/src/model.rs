@@ -258,6 +258,21 @@ pub struct Machine<T, E> {
     jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
+/// Some parameters of a model, which [`Machine::set_some`] sets. They are looked up once, since they are set at each step.
+#[derive(Clone, Debug, Default)]
+pub struct Varying {
+    indices: Box<[usize]>,
+    /// Whether values that depend only on parameters depend on these.
+    derive: bool,
+}
+
+impl Varying {
+    /// Their indices in [`Info::parameters`].
+    pub fn indices(&self) -> &[usize] {
+        &self.indices
+    }
+}
+
 /// A model over one scalar without a Jacobian, so that its equations are not compiled over dual numbers. A batch never
 /// uses this type.
 struct WithoutJacobian<M>(M);
@@ -299,18 +314,26 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         self.at(method, time, state, results);
     }
 
-    /// Sets some parameters \[SI\], by their index in [`Info::parameters`].
-    pub fn set_some(&mut self, parameters: &[usize], values: &[T]) {
-        for (index, value) in parameters.iter().zip(values) {
+    /// Sets some parameters \[SI\].
+    pub fn set_some(&mut self, parameters: &Varying, values: &[T]) {
+        for (index, value) in parameters.indices.iter().zip(values) {
             self.parameters[*index] = *value;
         }
-        if self.depends(Method::Derived, parameters) {
+        if parameters.derive {
             self.derive();
         } else {
             self.execute.set_constants(&self.parameters, &self.derived);
             if let Some(jacobian) = self.jacobian.get_mut() {
                 jacobian.forget_parameters();
             }
+        }
+    }
+
+    /// Parameters that are set together, by their index in [`Info::parameters`].
+    pub fn varying(&self, indices: &[usize]) -> Varying {
+        Varying {
+            derive: self.depends(Method::Derived, indices),
+            indices: indices.into(),
         }
     }
 

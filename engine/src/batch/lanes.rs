@@ -1,9 +1,9 @@
 //! The model over registers of one width: rows become lanes, and lanes rows.
 
 use super::{Hold, Rollout, Rows, Wanted};
-use crate::model::{Engine, Evaluated};
+use crate::model::{Engine, Evaluated, Varying};
 use bryant_generator::program::Method;
-use bryant_runtime::real::lanes::OfAnyWidth;
+use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
 use bryant_runtime::{Adjustable, Dynamics, Real, Section, Several, Task};
 use std::ops::Range;
 
@@ -51,19 +51,21 @@ impl OfAnyWidth for Make<'_> {
         let length = info.state_length();
         let mut start = zeros(length);
         model.initial_state(&mut start);
+        let most = most.into_iter().chain(functions).max().unwrap_or(0);
         Box::new(Held {
             y: zeros(length),
             rate: zeros(length),
             stage: zeros(length),
             sum: zeros(length),
             before: zeros(length),
-            results: zeros(most.into_iter().chain(functions).max().unwrap_or(0)),
+            results: zeros(most),
+            room: vec![[0.0; MOST_LANES]; most],
             accelerations: zeros(info.velocities.len()),
             values: Vec::new(),
             at_end: Vec::new(),
             defaults: Vec::new(),
             now: Vec::new(),
-            varying: Vec::new(),
+            varying: Varying::default(),
             start,
             model,
         })
@@ -83,14 +85,19 @@ struct Held<T: Real> {
     results: Vec<T>,
     /// Given accelerations.
     accelerations: Vec<T>,
-    varying: Vec<usize>,
+    varying: Varying,
     /// The values of the varying parameters at the beginning of a step, and at its end; those of the batch.
     values: Vec<T>,
     at_end: Vec<T>,
     defaults: Vec<T>,
     /// Room for the values within a step.
     now: Vec<T>,
+    /// Room for numbers on their way into lanes and out of them.
+    room: Vec<Numbers>,
 }
+
+/// The numbers of the lanes of one entry.
+type Numbers = [f64; MOST_LANES];
 
 /// Loads entries of rows into lanes. Lanes beyond the last row have the last row.
 struct Load<'a, T> {
@@ -99,6 +106,9 @@ struct Load<'a, T> {
     stride: usize,
     first: usize,
     end: usize,
+    /// As long as `into` at least. All numbers are written before the first register is read: a register that is read
+    /// right after its numbers were written waits for them.
+    room: &'a mut [Numbers],
     into: &'a mut [T],
 }
 
@@ -106,13 +116,27 @@ impl<T: Several<One = f64>> Task for Load<'_, T> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        let mut lanes = T::from_f64(0.0).lanes();
-        for (entry, into) in self.into.iter_mut().enumerate() {
-            for (lane, value) in lanes.iter_mut().enumerate().take(T::LANES) {
-                let row = (self.first + lane).min(self.end - 1);
-                *value = self.rows[row * self.stride + entry];
+        let length = self.into.len();
+        let row = |lane: usize| {
+            let row = (self.first + lane).min(self.end - 1);
+            &self.rows[row * self.stride..][..length]
+        };
+        if T::LANES == 1 {
+            for (into, value) in self.into.iter_mut().zip(row(0)) {
+                *into = T::from_f64(*value);
             }
-            *into = T::of_lanes(&lanes);
+            return;
+        }
+        let rows: [&[f64]; MOST_LANES] =
+            std::array::from_fn(|lane| row(if lane < T::LANES { lane } else { 0 }));
+        let room = &mut self.room[..length];
+        for (entry, numbers) in room.iter_mut().enumerate() {
+            for (number, row) in numbers.iter_mut().zip(&rows).take(T::LANES) {
+                *number = row[entry];
+            }
+        }
+        for (into, numbers) in self.into.iter_mut().zip(room) {
+            *into = T::of_lanes(numbers);
         }
     }
 }
@@ -122,6 +146,8 @@ struct Store<'a, T> {
     from: &'a [T],
     stride: usize,
     rows: usize,
+    /// As long as `from` at least.
+    room: &'a mut [Numbers],
     results: &'a mut [f64],
 }
 
@@ -129,10 +155,15 @@ impl<T: Several<One = f64>> Task for Store<'_, T> {
     type Output = ();
     #[inline(always)]
     fn run(self) {
-        for (entry, from) in self.from.iter().enumerate() {
-            let lanes = from.lanes();
-            for (row, value) in lanes.iter().enumerate().take(self.rows) {
-                self.results[row * self.stride + entry] = *value;
+        let length = self.from.len();
+        let room = &mut self.room[..length];
+        for (numbers, from) in room.iter_mut().zip(self.from) {
+            *numbers = from.lanes();
+        }
+        for (entry, numbers) in room.iter().enumerate() {
+            let rows = self.results.chunks_mut(self.stride);
+            for (row, number) in rows.zip(numbers).take(self.rows) {
+                row[entry] = *number;
             }
         }
     }
@@ -228,6 +259,7 @@ impl<T: Several<One = f64>> Held<T> {
                     stride,
                     first,
                     end,
+                    room: &mut self.room,
                     into,
                 });
             }
@@ -236,12 +268,13 @@ impl<T: Several<One = f64>> Held<T> {
 
     /// Loads the inputs of the tick `tick` of `ticks` of the rows from `first` on.
     fn load_inputs(&mut self, inputs: &[f64], first: usize, end: usize, [tick, ticks]: [usize; 2]) {
-        let width = self.varying.len();
+        let width = self.varying.indices().len();
         T::dispatch(Load {
             rows: &inputs[tick * width..],
             stride: ticks * width,
             first,
             end,
+            room: &mut self.room,
             into: &mut self.values,
         });
     }
@@ -361,7 +394,7 @@ impl<T: Several<One = f64>> Held<T> {
 
 impl<T: Several<One = f64>> Lanes for Held<T> {
     fn vary(&mut self, parameters: &[usize]) {
-        self.varying = parameters.to_vec();
+        self.varying = self.model.varying(parameters);
         let zero = T::from_f64(0.0);
         for values in [
             &mut self.values,
@@ -372,12 +405,15 @@ impl<T: Several<One = f64>> Lanes for Held<T> {
             values.clear();
             values.resize(parameters.len(), zero);
         }
+        if self.room.len() < parameters.len() {
+            self.room.resize(parameters.len(), [0.0; MOST_LANES]);
+        }
     }
 
     fn set_parameters(&mut self, values: &[f64]) {
         let all: Vec<T> = values.iter().map(|value| T::from_f64(*value)).collect();
         self.model.set_parameters(&all);
-        for (default, index) in self.defaults.iter_mut().zip(&self.varying) {
+        for (default, index) in self.defaults.iter_mut().zip(self.varying.indices()) {
             *default = all[*index];
         }
         self.model.initial_state(&mut self.start);
@@ -402,6 +438,7 @@ impl<T: Several<One = f64>> Lanes for Held<T> {
                 from: &self.results[found],
                 stride,
                 rows: T::LANES.min(range.end - first),
+                room: &mut self.room,
                 results: &mut results[(first - range.start) * stride..],
             });
         }
@@ -438,12 +475,13 @@ impl<T: Several<One = f64>> Lanes for Held<T> {
                     self.model.set_some(&self.varying, &self.values);
                 }
                 if linear {
-                    let next = &rows.inputs[(k + 1) * self.varying.len()..];
+                    let next = &rows.inputs[(k + 1) * self.varying.indices().len()..];
                     T::dispatch(Load {
                         rows: next,
-                        stride: ticks * self.varying.len(),
+                        stride: ticks * self.varying.indices().len(),
                         first,
                         end: range.end,
+                        room: &mut self.room,
                         into: &mut self.at_end,
                     });
                 }
@@ -479,6 +517,7 @@ impl<T: Several<One = f64>> Lanes for Held<T> {
                         from,
                         stride: steps * length,
                         rows: lanes,
+                        room: &mut self.room,
                         results: &mut results[row * length..],
                     });
                 }

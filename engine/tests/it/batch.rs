@@ -265,6 +265,10 @@ fn what_does_not_fit_or_is_not_allowed_is_refused_and_changes_nothing() {
         refused(&mut batch, &[1.0, -1.0]),
         of_row(1, Refusal::Condition(0))
     );
+    assert_eq!(
+        refused(&mut batch, &[f64::INFINITY, 1.0]),
+        of_row(0, Refusal::NotFinite(0, f64::INFINITY))
+    );
     assert!(batch.set_parameters(&[-1.0, 0.0]).is_err());
     batch
         .evaluate(Wanted::Accelerations, &rows(&[]), &mut results)
