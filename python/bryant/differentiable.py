@@ -1,14 +1,16 @@
 """Accelerations as functions of JAX and PyTorch, with the exact derivatives of the engine.
 
-The derivatives are those of `Model.linearise`. Its columns for positions are along the motion of each velocity, and are turned into columns
-for the coordinates here. A quaternion is scaled to length 1 first, so its four numbers may be any but zeros, and the derivative along it is 0.
+The derivatives are those of `Model.linearise`. Its columns for positions are along the motion of each velocity, and are
+turned into columns for the coordinates here. A quaternion is scaled to length 1 first, so its four numbers may be any
+but zeros, and the derivative along it is 0.
 """
 
 import numpy as np
 
 
 class _Accelerations:
-    """v̇ and its derivatives by q, v and u at arrays of one shape but for the last dimension. An u of no columns means the parameters."""
+    """v̇ and its derivatives by q, v and u, arrays of one shape but for the last dimension. A u of no columns means the
+    inputs among the parameters."""
 
     def __init__(self, model):
         self.model = model

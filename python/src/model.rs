@@ -1,6 +1,6 @@
 //! A model at many states, as arrays.
 
-use crate::arrays::{Array, Filled};
+use crate::arrays::{Array, Filled, Shape};
 use crate::wrong;
 use bryant_engine::Engine;
 use bryant_engine::batch::{Batch, Hold, Rollout, Rows, Wanted};
@@ -40,14 +40,14 @@ struct Pool {
 /// Models that no thread uses now, each with its number of threads. Calls on several threads of Python take one each.
 #[derive(Default)]
 struct Idle {
-    batches: Vec<(usize, Batch)>,
+    batches: Vec<(usize, Box<Batch>)>,
     /// Counts the changes of parameters: a model that was taken before the last one is not put back.
     changes: u64,
 }
 
 /// A model that a call uses.
 struct Taken {
-    batch: Batch,
+    batch: Box<Batch>,
     threads: usize,
     changes: u64,
 }
@@ -72,7 +72,7 @@ impl Pool {
         let found = found.map(|found| idle.batches.swap_remove(found).1);
         drop(idle);
         let batch = found.unwrap_or_else(|| {
-            let mut batch = self.engine.batch(threads);
+            let mut batch = Box::new(self.engine.batch(threads));
             let values = parameters.lock().unwrap_or_else(PoisonError::into_inner);
             let _ = batch.set_parameters(&values);
             batch
@@ -280,26 +280,25 @@ impl Model {
             batch.vary(vary);
         }
         let freedoms = info.velocities.len();
-        let mut shape = given.leading.clone();
-        match wanted {
-            Wanted::MassMatrix => shape.extend([freedoms, freedoms]),
-            Wanted::Section(Section::KineticEnergy) => {}
+        let mut shape = match wanted {
+            Wanted::MassMatrix => given.leading.and(&[freedoms, freedoms]),
+            Wanted::Section(Section::KineticEnergy) => given.leading,
             Wanted::Function(index) => {
                 let function = &pool.engine.functions()[index];
                 let sides = [function.rows.len(), function.columns.len()];
                 // a column, and a single number, have no second dimension
-                shape.extend(match sides {
+                given.leading.and(match sides {
                     [1, 1] => &sides[..0],
                     [_, 1] => &sides[..1],
                     _ => &sides[..],
-                });
+                })
             }
-            _ => shape.push(batch.length(wanted)),
-        }
+            _ => given.leading.and(&[batch.length(wanted)]),
+        };
         // one number is that of an array of one
         let alone = shape.is_empty();
         if alone {
-            shape.push(1);
+            shape = shape.and(&[1]);
         }
         let mut filled = Filled::new(py, out, &shape)?;
         let results = filled.room.numbers_mut()?;
@@ -362,7 +361,7 @@ impl Model {
             true => info.outputs.len(),
             false => info.state_length(),
         };
-        let shape = [&given.leading[..], &[steps, length]].concat();
+        let shape = given.leading.and(&[steps, length]);
         let mut filled = Filled::new(py, out, &shape)?;
         let results = filled.room.numbers_mut()?;
         let (to_states, to_outputs) = match outputs {
@@ -473,7 +472,7 @@ struct Given {
     /// v where it was not given.
     zeros: Vec<f64>,
     /// The dimensions before the last one: none for one state, one for several.
-    leading: Vec<usize>,
+    leading: Shape,
     count: usize,
 }
 
@@ -488,8 +487,8 @@ impl Given {
     ) -> PyResult<Self> {
         let (q, v) = (Array::of(q)?, v.map(Array::of).transpose()?);
         let leading = match q.shape() {
-            [length] if *length == info.coordinates.len() => vec![],
-            [count, length] if *length == info.coordinates.len() => vec![*count],
+            [length] if *length == info.coordinates.len() => Shape::default(),
+            [count, length] if *length == info.coordinates.len() => Shape::default().and(&[*count]),
             other => {
                 let n = info.coordinates.len();
                 return Err(PyValueError::new_err(format!(
@@ -500,7 +499,7 @@ impl Given {
         };
         let count = leading.first().copied().unwrap_or(1);
         if let Some(v) = &v {
-            let expected = [&leading[..], &[info.velocities.len()]].concat();
+            let expected = &leading.and(&[info.velocities.len()])[..];
             if v.shape() != expected {
                 return Err(PyValueError::new_err(format!(
                     "v must have the shape {expected:?}, as q has, and has {:?}: the velocities are {}",

@@ -121,6 +121,42 @@ def test_results_go_to_an_array_that_is_given(dummy):
             dummy.accelerations(q, v, out=wrong)
 
 
+def test_arrays_of_every_form_give_the_same_bits(dummy):
+    q, v = near(dummy, 9)
+    expected = dummy.accelerations(q, v)
+    n = q.shape[1]
+    # the same doubles: in every second place, from behind, at odd addresses, in the other order of bytes, of another type, read-only, as a list
+    spread = np.full((18, 2 * n), 7.0)
+    spread[::2, ::2] = q
+    odd = np.frombuffer(b"x" + q.tobytes(), dtype=np.uint8)[1:].view(float).reshape(q.shape)
+    assert not odd.flags.aligned
+    fixed = q.copy()
+    fixed.flags.writeable = False
+
+    class Other(np.ndarray):
+        pass
+
+    forms = [spread[::2, ::2], q[::-1, ::-1].copy()[::-1, ::-1], odd, q.astype(">f8"), q.astype(np.longdouble), q.view(Other), fixed, q.tolist(), memoryview(q)]
+    for form in forms:
+        np.testing.assert_array_equal(dummy.accelerations(form, v), expected)
+    # whole numbers and floats of 32 bits are turned into doubles
+    whole = np.zeros(n, dtype=int)
+    whole[3::4] = 1
+    still = np.zeros(len(v[0]))
+    for form in (whole, whole.astype(np.float32), whole.astype(bool)):
+        np.testing.assert_array_equal(dummy.accelerations(form, still), dummy.accelerations(whole.astype(float), still))
+    # results go to doubles in rows without gaps that can be written, and nowhere else
+    shape = expected.shape
+    closed = np.empty(shape)
+    closed.flags.writeable = False
+    for wrong in (closed, np.empty(shape, order="F"), np.empty(shape, dtype=">f8"), np.empty(shape, dtype=np.float32), np.empty((18, shape[1]))[::2]):
+        with pytest.raises((TypeError, ValueError, BufferError), match="array for results"):
+            dummy.accelerations(q, v, out=wrong)
+    view = np.empty((20, shape[1]))
+    dummy.accelerations(q, v, out=view[3:12])
+    np.testing.assert_array_equal(view[3:12], expected)
+
+
 def test_what_does_not_fit_is_refused(cart):
     with pytest.raises(ValueError, match=r"q must have the shape \(1,\) or \(states, 1\), and has \[2\]"):
         cart.accelerations([0.0, 1.0], [0.0])
