@@ -132,9 +132,7 @@ impl Arguments {
         let (t, state) = match &self.start {
             Some(path) => {
                 let read = read_start(path, &found.model, &engine, &set, f64::INFINITY)?;
-                for note in &read.notes {
-                    terminal.note(note);
-                }
+                read.notes.iter().for_each(|note| terminal.note(note));
                 (read.start.t, read.start.state)
             }
             None => {
@@ -145,14 +143,8 @@ impl Arguments {
         };
         let outputs = watched.outputs(&model, t, &state);
         self.must_rest(info, &state, watched.acceleration(&outputs))?;
-        let moving = (0..state.len()).filter(|&index| info.kind(index) == StateKind::Velocity);
-        if let Some(speed) = moving.map(|index| state[index].abs()).reduce(f64::max)
-            && speed > MOVING
-        {
-            terminal.note(&format!(
-                "the state moves at up to {} m/s: the modes are those of an observer who moves along, with the forces of this instant",
-                digits(speed)
-            ));
+        if let Some(note) = moves_along(info, &state) {
+            terminal.note(&note);
         }
         let index = engine.function(MASS_MATRIX).expect("it was asked for");
         let mut mass = vec![0.0; info.velocities.len().pow(2)];
@@ -217,18 +209,13 @@ impl Arguments {
         };
         let title = format!("Modes of {title}");
         let mut data = page::json(rest, drawn).map_err(Error::system)?;
-        let about = json!({
-            "title": title,
-            "model": model.name,
-            "version": env!("CARGO_PKG_VERSION"),
-            "digest": rest.dynamics.info().digest,
-            "command": command_line(),
-            "unstable": shown.iter().any(Shown::grows),
-            "notes": notes,
-        });
-        data.as_object_mut()
-            .expect("it is one")
-            .extend(about.as_object().expect("it is one").clone());
+        data["title"] = title.as_str().into();
+        data["model"] = model.name.as_str().into();
+        data["version"] = env!("CARGO_PKG_VERSION").into();
+        data["digest"] = rest.dynamics.info().digest.into();
+        data["command"] = command_line().into();
+        data["unstable"] = shown.iter().any(Shown::grows).into();
+        data["notes"] = notes.into();
         Ok(report::modes_page(&title, &data))
     }
 
@@ -262,6 +249,18 @@ impl Arguments {
             ))),
         }
     }
+}
+
+/// The note that a state of rest is one that moves along.
+fn moves_along(info: &Info, state: &[f64]) -> Option<String> {
+    let moving = (0..state.len()).filter(|&index| info.kind(index) == StateKind::Velocity);
+    let speed = moving.map(|index| state[index].abs()).reduce(f64::max)?;
+    (speed > MOVING).then(|| {
+        format!(
+            "the state moves at up to {} m/s: the modes are those of an observer who moves along, with the forces of this instant",
+            digits(speed)
+        )
+    })
 }
 
 /// What is to be said of the modes.

@@ -1,4 +1,4 @@
-// Modes: a table of them, and the motion in the one that is chosen. Its poses are in the data; nothing of the motion is computed here.
+// Modes: a table of them, and the motion in the one that is chosen. Its poses, and the factors on its shape there, are in the data.
 const allFrames = scene.frames, allWays = scene.lines.map((line) => line.way);
 const still = window.matchMedia("(prefers-reduced-motion: reduce)");
 let chosenMode = 0;
@@ -58,10 +58,11 @@ function tellShape() {
   if (small.length) folded(byId("shape"), `${small.length} with smaller shares`, table(heads, small.map(({ row }) => row)));
   byId("shape").swings = made.map(({ swing }) => swing);
 }
-// The factor on a coordinate, as its poses have it.
+// The factor on a coordinate of this phase, between two poses as the picture is: the real part of the product with e^(iφ).
 function factor(phase, part) {
-  const sign = Math.cos(phase);
-  return { oscillates: Math.cos(phase + 2 * Math.PI * part), free: sign * Math.cos(2 * Math.PI * part), decays: sign * Math.exp(-3 * part), grows: sign * Math.exp(3 * (part - 1)) }[mode().course];
+  const factors = data.factors[mode().course], at = part * (factors.length - 1), k = Math.min(Math.floor(at), factors.length - 2);
+  const [re, im] = [0, 1].map((i) => factors[k][i] + (at - k) * (factors[k + 1][i] - factors[k][i]));
+  return Math.cos(phase) * re - Math.sin(phase) * im;
 }
 function swing(part) {
   for (const swing of byId("shape").swings) {
@@ -90,7 +91,7 @@ function startModes() {
   notes.append(lines([
     "frequency: |λ|/2π of the motion e^(λ t), that of the mode without its damping; damping: −Re λ/|λ|, in parts of the critical one; time: in which the motion falls, or grows, by a factor of e",
     "moves, energy: the shares of the kinetic energy by velocity of the model; amplitude and phase: those of the coordinate along the motion of the velocity, at the size that is drawn",
-    "Where rates coincide, every combination of the shapes is a shape, too. Those that are shown are orthogonal in the mass matrix, and as much as possible is the motion of one velocity.",
+    "Where rates coincide, every combination of their shapes is a shape, too. Those that are shown are orthogonal in the mass matrix, and as much of the energy as possible is in a single velocity of each.",
   ]));
   const command = element("p"), digest = element("p");
   command.append("Command: ", element("code", data.command));

@@ -15,7 +15,7 @@ use crate::scene::{Scene, length};
 use bryant_engine::Evaluated;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Header;
-use bryant_runtime::{Dynamics, StateKind};
+use bryant_runtime::{Dynamics, Info, StateKind};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 
@@ -56,6 +56,18 @@ enum Course {
 }
 
 impl Course {
+    const ALL: [Course; 4] = [
+        Course::Oscillates,
+        Course::Decays,
+        Course::Grows,
+        Course::Free,
+    ];
+
+    /// The factors on the shape at the poses of a loop.
+    fn factors(self) -> impl Iterator<Item = Number> {
+        (0..POSES).map(move |pose| self.factor(part(pose)))
+    }
+
     fn of(shown: &Shown<'_>) -> Self {
         match shown.mode.rate {
             _ if shown.free => Course::Free,
@@ -83,6 +95,11 @@ impl Course {
             Course::Free => "free",
         }
     }
+}
+
+/// The part of a loop at which a pose is.
+fn part(pose: usize) -> f64 {
+    pose as f64 / (POSES - 1) as f64
 }
 
 /// The motions away from the state.
@@ -144,6 +161,36 @@ impl<'a> Motions<'a> {
             coordinates,
             state: state.to_vec(),
         }
+    }
+
+    /// The state moved along a shape with a factor on it.
+    fn displaced(&self, shape: &[Number], factor: Number) -> Instant {
+        self.along(shape.iter().map(|entry| (entry * factor).re))
+    }
+
+    /// Multiplies each shape so that it is as large as it is drawn \[m, rad\]. Returns the size of what moves \[m\].
+    fn size_as_drawn(&self, shapes: &mut [Vec<Number>]) -> Result<f64, Mismatch> {
+        // displacements in proportion to the amplitude, at both ends of a quarter of a turn
+        let quarter = [0.0, 0.25].map(|part| Course::Oscillates.factor(part) * SMALL);
+        let small = shapes
+            .iter()
+            .flat_map(|shape| quarter.map(|factor| self.displaced(shape, factor)));
+        let small = self.scene(small.collect())?;
+        let size = small.size(0);
+        for (mode, shape) in shapes.iter_mut().enumerate() {
+            let [moved, angle] = [Scene::displacement, turn].map(|of| {
+                let ends = [1, 2].map(|end| of(&small, 0, 2 * mode + end));
+                ends[0].max(ends[1]) / SMALL
+            });
+            let amplitude = (SHARE * size / moved).min(WIDEST / angle);
+            let amplitude = if amplitude.is_finite() {
+                amplitude
+            } else {
+                0.0
+            };
+            shape.iter_mut().for_each(|entry| *entry *= amplitude);
+        }
+        Ok(size)
     }
 
     /// A scene at the state, and behind it at these instants, with the forces of the state.
@@ -219,51 +266,47 @@ fn displacements(shown: &Shown<'_>, names: &[&str]) -> Vec<Number> {
 pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
     let info = rest.dynamics.info();
     let motions = Motions::new(rest);
-    let shapes: Vec<Vec<Number>> = shown
+    let mut shapes: Vec<Vec<Number>> = shown
         .iter()
         .map(|one| displacements(one, info.velocities))
         .collect();
-    let at = |shape: &[Number], factor: Number| {
-        motions.along(shape.iter().map(|entry| (entry * factor).re))
-    };
-    // displacements in proportion to the amplitude, at both ends of a quarter of a turn
-    let quarter = [0.0, 0.25].map(|part| Course::Oscillates.factor(part) * SMALL);
-    let small = shapes
-        .iter()
-        .flat_map(|shape| quarter.map(|factor| at(shape, factor)));
-    let small = motions.scene(small.collect())?;
-    let size = small.size(0);
-    let amplitude = |mode: usize| {
-        let [moved, angle] = [Scene::displacement, turn].map(|of| {
-            let ends = [1, 2].map(|end| of(&small, 0, 2 * mode + end));
-            ends[0].max(ends[1]) / SMALL
-        });
-        let limits = [SHARE * size / moved, WIDEST / angle];
-        let least = limits[0].min(limits[1]);
-        if least.is_finite() { least } else { 0.0 }
-    };
-    let amplitudes: Vec<f64> = (0..shown.len()).map(amplitude).collect();
-    let loops = shown.iter().zip(&shapes).zip(&amplitudes);
-    let loops = loops.flat_map(|((one, shape), amplitude)| {
-        let course = Course::of(one);
-        (0..POSES).map(move |pose| {
-            let part = pose as f64 / (POSES - 1) as f64;
-            at(shape, course.factor(part) * *amplitude)
-        })
+    let size = motions.size_as_drawn(&mut shapes)?;
+    let poses = shown.iter().zip(&shapes).flat_map(|(one, shape)| {
+        let factors = Course::of(one).factors();
+        factors.map(|factor| motions.displaced(shape, factor))
     });
-    let mut scene = motions.scene(loops.collect())?;
-    let modes = shown.iter().enumerate().map(|(index, one)| {
-        let course = Course::of(one);
+    let mut scene = motions.scene(poses.collect())?;
+    let modes = shown.iter().zip(&shapes).enumerate();
+    let modes = modes.map(|(index, (one, shape))| {
         let poses = 1 + POSES * index..1 + POSES * (index + 1);
-        let farthest = poses.map(|k| scene.displacement(0, k)).fold(0.0, f64::max);
+        let farthest = poses.map(|k| scene.displacement(0, k));
+        one.drawn(shape, farthest.fold(0.0, f64::max), info)
+    });
+    let modes: Vec<Value> = modes.collect();
+    keep_forces_of_rest(&mut scene);
+    let mut drawn = report::json(&scene);
+    // parts of a loop, of which each mode has one
+    drawn["times"] = (0..POSES).map(|pose| json!(part(pose))).collect();
+    let factors = Course::ALL.map(|course| {
+        let factors = course.factors().map(|factor| json!([factor.re, factor.im]));
+        (course.word().to_owned(), factors.collect())
+    });
+    let factors: serde_json::Map<String, Value> = factors.into_iter().collect();
+    Ok(json!({ "scene": drawn, "size": short(size), "factors": factors, "modes": modes }))
+}
+
+impl Shown<'_> {
+    /// The mode as it is drawn, with displacements \[m, rad\] of this shape, of which the farthest point has the largest \[m\].
+    fn drawn(&self, shape: &[Number], farthest: f64, info: &Info) -> Value {
+        let course = Course::of(self);
         let lasts = match course {
-            Course::Oscillates => Some(TAU / one.mode.rate.im.abs()),
-            Course::Decays | Course::Grows => Some(TIMES / one.mode.rate.re.abs()),
+            Course::Oscillates => Some(TAU / self.mode.rate.im.abs()),
+            Course::Decays | Course::Grows => Some(TIMES / self.mode.rate.re.abs()),
             Course::Free => None,
         };
-        let coordinates = one.shares.iter().filter_map(|(name, share)| {
+        let coordinates = self.shares.iter().filter_map(|(name, share)| {
             let place = info.velocities.iter().position(|one| one == name)?;
-            let entry = shapes[index][place] * amplitudes[index];
+            let entry = shape[place];
             let (factor, unit) = match info.kind(info.coordinates.len() + place) {
                 StateKind::AngularVelocity => (1f64.to_degrees(), "deg"),
                 _ => (1e3, "mm"),
@@ -277,15 +320,17 @@ pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
             }))
         });
         json!({
-            "cells": [one.frequency(), one.damping(), one.time(), one.moves()],
+            "cells": [self.frequency(), self.damping(), self.time(), self.moves()],
             "course": course.word(),
             "lasts": lasts,
             "farthest": short(farthest),
             "coordinates": coordinates.collect::<Vec<_>>(),
         })
-    });
-    let modes: Vec<Value> = modes.collect();
-    // forces are those at the state
+    }
+}
+
+/// Leaves the forces of the state of rest, which is the first instant, and no others.
+fn keep_forces_of_rest(scene: &mut Scene) {
     scene.pushes.clear();
     for line in &mut scene.lines {
         line.pulls.iter_mut().for_each(|pulls| pulls.truncate(1));
@@ -295,10 +340,4 @@ pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
             fill.truncate(1);
         }
     }
-    let mut drawn = report::json(&scene);
-    // parts of a loop, of which each mode has one
-    drawn["times"] = (0..POSES)
-        .map(|pose| json!(pose as f64 / (POSES - 1) as f64))
-        .collect();
-    Ok(json!({ "scene": drawn, "size": short(size), "modes": modes }))
 }
