@@ -44,7 +44,10 @@ impl Array {
         let require = numpy(py)?.require.bind(py);
         // by rows, at an address of doubles
         let made = require.call1((value, intern!(py, "float64"), intern!(py, "CA")))?;
-        Ok(Self::of_buffer(doubles(&made)?))
+        match Self::direct(&made)? {
+            Some(array) => Ok(array),
+            None => Ok(Self::of_buffer(doubles(&made)?)),
+        }
     }
 
     fn of_buffer(buffer: PyBuffer<f64>) -> Self {
@@ -100,6 +103,16 @@ impl Array {
             // a function reads it gets numbers that are its own fault, as with numpy; none of them is invalid.
             count => unsafe { std::slice::from_raw_parts(self.numbers, count) },
         }
+    }
+
+    /// Whether some of its numbers are those of another array, too.
+    pub fn overlaps(&self, other: &Array) -> bool {
+        let range = |of: &Array| {
+            let length: usize = of.shape().iter().product();
+            (of.numbers.addr(), length * size_of::<f64>())
+        };
+        let ((a, long), (b, other)) = (range(self), range(other));
+        a < b + other && b < a + long
     }
 
     /// All numbers, to be written.

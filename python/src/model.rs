@@ -301,6 +301,7 @@ impl Model {
             shape = shape.and(&[1]);
         }
         let mut filled = Filled::new(py, out, &shape)?;
+        given.apart_from(&filled.room)?;
         let results = filled.room.numbers_mut()?;
         let mut work = || batch.evaluate(wanted, &given.rows(t), results);
         let done = match given.count >= MANY {
@@ -363,6 +364,7 @@ impl Model {
         };
         let shape = given.leading.and(&[steps, length]);
         let mut filled = Filled::new(py, out, &shape)?;
+        given.apart_from(&filled.room)?;
         let results = filled.room.numbers_mut()?;
         let (to_states, to_outputs) = match outputs {
             true => (&mut [][..], results),
@@ -521,6 +523,26 @@ impl Given {
             leading,
             count,
         })
+    }
+
+    /// Fails if results would be written to numbers that are still read.
+    fn apart_from(&self, results: &Array) -> PyResult<()> {
+        let (v, u) = (self.v.as_ref(), self.u.as_ref());
+        let given = [
+            ("q", Some(&self.q)),
+            ("v", v),
+            ("u", u),
+            ("states", self.states.as_ref()),
+            ("a", self.a.as_ref()),
+        ];
+        let shared =
+            |(_, array): &(&str, Option<&Array>)| array.is_some_and(|one| one.overlaps(results));
+        match given.into_iter().find(shared) {
+            None => Ok(()),
+            Some((name, _)) => Err(PyValueError::new_err(format!(
+                "the array for results shares memory with {name}: give another one, or a copy of {name}"
+            ))),
+        }
     }
 
     fn rows(&self, time: f64) -> Rows<'_> {

@@ -157,9 +157,33 @@ def test_arrays_of_every_form_give_the_same_bits(dummy):
     np.testing.assert_array_equal(view[3:12], expected)
 
 
+def test_results_that_would_be_written_over_what_is_read_are_refused(cart):
+    # one memory for q and for v, each a column
+    both = np.linspace(0.1, 1.0, 10)
+    q, v = both[:5].reshape(5, 1), both[5:].reshape(5, 1)
+    expected = cart.accelerations(q.copy(), v.copy())
+    for name, out in [("q", both[:5]), ("v", both[5:]), ("q", both[3:8])]:
+        with pytest.raises(ValueError, match=f"shares memory with {name}"):
+            cart.accelerations(q, v, out=out.reshape(5, 1))
+    room = np.zeros((5, 1))
+    with pytest.raises(ValueError, match="shares memory with u"):
+        cart.accelerations(q, v, room, out=room)
+    room = np.zeros((5, 4, 2))
+    with pytest.raises(ValueError, match="shares memory with u"):
+        cart.rollout(q, v, room.reshape(-1)[:20].reshape(5, 4, 1), dt=1e-3, out=room)
+    # beside each other they may lie
+    room = np.empty((15, 1))
+    room[:5], room[10:] = q, v
+    np.testing.assert_array_equal(cart.accelerations(room[:5], room[10:], out=room[5:10]), expected)
+
+
 def test_what_does_not_fit_is_refused(cart):
     with pytest.raises(ValueError, match=r"q must have the shape \(1,\) or \(states, 1\), and has \[2\]"):
         cart.accelerations([0.0, 1.0], [0.0])
+    # a number is no array of one
+    for number in (0.5, np.float64(0.5), np.array(0.5), None):
+        with pytest.raises(ValueError, match=r"q must have the shape \(1,\) or \(states, 1\), and has \[\]"):
+            cart.accelerations(number, [0.0])
     with pytest.raises(ValueError, match="v must have the shape"):
         cart.accelerations([0.0], [0.0, 1.0])
     with pytest.raises(bryant.Error, match="inputs must have 1 numbers, and has 2"):
