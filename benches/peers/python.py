@@ -69,7 +69,7 @@ def main():
         rows.append([f"{title} [{unit}]", *cells, figure(goal), figure(here), "met" if met else "missed"])
     of = ", ".join(f"{column} {row} {ratio:.2f}" for (row, column), ratio in zip(THERE, slower))
     notes = [
-        f"{compare.processor()}, Python {sys.version.split()[0]}, numpy {np.__version__}, {bryant_version()}, Pinocchio {pinocchio.__version__}, MuJoCo {mujoco.__version__}",
+        f"{compare.processor()}, Python {sys.version.split()[0]}, numpy {np.__version__}, bryant {bryant.__version__}, Pinocchio {pinocchio.__version__}, MuJoCo {mujoco.__version__}.",
         f"{arguments.rounds} rounds; medians. This machine takes {scale:.2f} times as long as the one of the goals ({of}).",
         f"import of numpy: {times['numpy', 'bryant'] * 1e3:.0f} ms. Goals missed: {'; '.join(missed) or 'none'}.",
     ]
@@ -249,10 +249,6 @@ def figure(value):
         power = int(np.floor(np.log10(value)))
         return f"{value / 10**power:.2f}e{power}"
     return f"{value:.0f}" if value >= 100 else f"{value:.3g}"
-
-
-def bryant_version():
-    return f"bryant {bryant.__version__}"
 
 
 if __name__ == "__main__":

@@ -3,17 +3,7 @@
 #
 # FOLDER and what it needs are those of run.sh; the table is robots.md there.
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
-folder=${1:-$here/../../target/peers}
-shift || true
-mkdir -p "$folder"
-folder=$(cd "$folder" && pwd)
-
-if ! cmp -s "$here/requirements.txt" "$folder/venv/installed.txt"; then
-    "${PYTHON:-python3}" -m venv "$folder/venv"
-    "$folder/venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
-    cp "$here/requirements.txt" "$folder/venv/installed.txt"
-fi
+. "$(dirname "$0")/prepare.sh"
 export PYTHONDONTWRITEBYTECODE=1
 "$folder/venv/bin/python" "$here/robots.py" prepare "$folder/robots"
 

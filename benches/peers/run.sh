@@ -4,17 +4,7 @@
 # FOLDER (default: target/peers of the repository) keeps the virtual environment, the programs and the tables, peers.md. It needs
 # CPython 3.11, gcc and g++, a Rust toolchain, and PyPI the first time; the first run compiles for several minutes.
 set -euo pipefail
-here=$(cd "$(dirname "$0")" && pwd)
-folder=${1:-$here/../../target/peers}
-shift || true
-mkdir -p "$folder"
-folder=$(cd "$folder" && pwd)
-
-if ! cmp -s "$here/requirements.txt" "$folder/venv/installed.txt"; then
-    "${PYTHON:-python3}" -m venv "$folder/venv"
-    "$folder/venv/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
-    cp "$here/requirements.txt" "$folder/venv/installed.txt"
-fi
+. "$(dirname "$0")/prepare.sh"
 
 # Builds twice: for any processor, as cargo does by default, and for this one. With an explicit target the flags do not apply to the
 # build script, so that the generator is compiled once.
