@@ -258,7 +258,8 @@ pub struct Machine<T, E> {
     jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
-/// Some parameters of a model, which [`Machine::set_some`] sets. They are looked up once, since they are set at each step.
+/// Some parameters of one model, by [`Machine::varying`], which [`Machine::set_some`] sets. They are looked up once, since they may be set at
+/// each step.
 #[derive(Clone, Debug, Default)]
 pub struct Varying {
     indices: Box<[usize]>,
@@ -314,7 +315,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         self.at(method, time, state, results);
     }
 
-    /// Sets some parameters \[SI\].
+    /// Sets some parameters of this model \[SI\], a value for each.
     pub fn set_some(&mut self, parameters: &Varying, values: &[T]) {
         for (index, value) in parameters.indices.iter().zip(values) {
             self.parameters[*index] = *value;
@@ -329,7 +330,7 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
         }
     }
 
-    /// Parameters that are set together, by their index in [`Info::parameters`].
+    /// Parameters that are set together, by their indices in [`Info::parameters`], in the order of their values.
     pub fn varying(&self, indices: &[usize]) -> Varying {
         Varying {
             derive: self.depends(Method::Derived, indices),
