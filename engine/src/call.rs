@@ -32,6 +32,7 @@ pub fn table(curve: &Curve) -> Table {
 }
 
 impl Library {
+    /// The functions of a model with these curves. A function of the user gives NaN if there are no `users`.
     pub fn new(curves: &[Curve], users: Option<Arc<dyn UserFunctions>>) -> Self {
         Library {
             curves: curves.iter().map(table).collect(),
@@ -39,7 +40,7 @@ impl Library {
         }
     }
 
-    pub fn curve(&self, index: u32) -> &Table {
+    pub(crate) fn curve(&self, index: u32) -> &Table {
         &self.curves[index as usize]
     }
 

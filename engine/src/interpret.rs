@@ -351,6 +351,48 @@ impl<T: Real> Execute<T> for Interpreter<T> {
     }
 }
 
+/// The results of a list by itself, as tests need it. `inputs` are the parameters, the values derived from them, the
+/// time and the state.
+pub fn alone(list: &List, inputs: [&[f64]; 4]) -> Vec<f64> {
+    let mut starts = [list.constants.len() as Place; 5];
+    for (i, input) in inputs.iter().enumerate() {
+        starts[i + 1] = starts[i] + input.len() as Place;
+    }
+    let [parameters, derived, time, state, rest] = starts;
+    let layout = Layout {
+        parameters,
+        derived,
+        time,
+        state,
+        rest,
+    };
+    let places = (0..).zip(&list.constants);
+    let constants = places.map(|(place, c)| (c.to_bits(), place)).collect();
+    let code = encode(list, &layout, &constants);
+    let mut frame = [&list.constants[..], &inputs.concat()].concat();
+    frame.resize(code.end, f64::NAN);
+    f64::dispatch(Runs {
+        code: &code,
+        library: &Library::new(&[], None),
+        frame: &mut frame,
+        arguments: &mut vec![f64::NAN; code.most_arguments],
+    });
+    let results = code.results.iter();
+    results.map(|&place| frame[place as usize]).collect()
+}
+
+/// The number of runs of one kind of operation in a list, in its own order and in that of [`in_runs`].
+pub fn count_runs(list: &List) -> [usize; 2] {
+    let runs = |operations: &mut dyn Iterator<Item = Operation>| {
+        let kinds: Vec<Kind> = operations.map(Kind::of).collect();
+        kinds.chunk_by(|a, b| a == b).count()
+    };
+    [
+        runs(&mut list.operations.iter().copied()),
+        runs(&mut in_runs(list).into_iter().map(|(_, operation)| operation)),
+    ]
+}
+
 impl<T: Real> Interpreter<T> {
     fn run_code(&self, code: &Code, given: Given<'_, T>, results: &mut [T]) {
         let Values { frame, arguments } = &mut *self.values.borrow_mut();
@@ -443,6 +485,3 @@ impl<T: Real> Task for Runs<'_, T> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

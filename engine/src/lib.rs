@@ -39,7 +39,7 @@
 //! | `call` | the functions that lists call: curves, force laws, functions of the user |
 //! | `user` | functions of the user, which take and return plain numbers |
 //! | `info` | the facts of a model, in the form of the runtime |
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![warn(clippy::disallowed_methods)]
 
 pub mod batch;
 mod call;
@@ -47,6 +47,8 @@ mod evaluate;
 mod execute;
 mod front;
 mod info;
+#[doc(hidden)]
+pub mod inside;
 mod interpret;
 mod jacobian;
 mod kept;
@@ -64,8 +66,6 @@ mod model;
 )]
 mod native;
 mod sets;
-#[cfg(test)]
-mod tests;
 mod user;
 
 pub use batch::Batch;

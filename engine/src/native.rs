@@ -6,8 +6,6 @@ mod code;
     path = "native/apple_memory.rs"
 )]
 mod memory;
-#[cfg(test)]
-mod tests;
 
 pub use code::{Call, Compiled};
 

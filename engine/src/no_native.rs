@@ -30,6 +30,11 @@ impl<T: Real, C: Call<T>> Compiled<T, C> {
     }
 }
 
+/// Returns `None`: no scalar has a target.
+pub fn target<T: Real>() -> Option<std::convert::Infallible> {
+    None
+}
+
 /// Returns false: no scalar has machine code.
 pub fn there<T: Real>() -> bool {
     false

@@ -191,7 +191,7 @@ fn what_cannot_move_by_itself_panics_in_no_command() {
         let forces = FORCES.into_iter().enumerate();
         forces.flat_map(move |force| [(system, force, false), (system, force, true)])
     });
-    for ((name, system), (k, force), ball) in share(4, all) {
+    for ((name, system), (k, force), ball) in share(8, all) {
         let of = format!("{name} {k} {ball}");
         let text = scene(system, force, ball, true);
         std::fs::write(here.join("s.yaml"), &text).unwrap();
@@ -216,7 +216,7 @@ fn nor_in_the_plane() {
         let forces = PLANAR_FORCES.into_iter().enumerate();
         forces.flat_map(move |force| [(system, force, false), (system, force, true)])
     });
-    for ((name, system), (k, force), ball) in share(4, all) {
+    for ((name, system), (k, force), ball) in share(8, all) {
         let of = format!("{name} {k} {ball}");
         let text = planar(system, force, ball);
         std::fs::write(here.join("s.yaml"), &text).unwrap();

@@ -183,7 +183,7 @@ fn no_kink_is_forgotten() {
         .filter(|(_, users)| !users)
         .collect();
     let count = models.len();
-    let chosen = share(4, models);
+    let chosen = share(8, models);
     let all = chosen.len() == count;
     for (entry, _) in chosen {
         // along the motion, and along motions with other velocities

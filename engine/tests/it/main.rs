@@ -9,6 +9,7 @@ mod fixed_steps;
 mod joint_laws;
 mod joints;
 mod kept;
+mod lists;
 mod memory_slopes;
 mod mirror;
 mod onset;
@@ -17,5 +18,7 @@ mod riding;
 mod rows_again;
 #[path = "../../../tests/suite/share.rs"]
 mod share;
+mod shared_code;
 mod stops;
+mod user;
 mod waiting;

@@ -3,6 +3,7 @@
 use super::directory;
 use super::folder::{Table, assert_same};
 use crate::called::call;
+use crate::share::share;
 use bryant_runtime::Width;
 use std::path::Path;
 
@@ -36,7 +37,7 @@ fn fixed_steps_agree_in_all_lanes_and_with_an_accurate_run() {
     write(at, "sharp.yaml", "accuracy: 1e-6");
     call(at, &["sweep", "sharp.yaml", "--out", "sharp"], 0);
     let sharp = Table::read(&at.join("sharp/results.csv"));
-    for method in ["heun", "rk4", "merson", "dopri5"] {
+    for method in share(2, ["heun", "rk4", "merson", "dopri5"]) {
         write(
             at,
             "steps.yaml",
@@ -69,12 +70,14 @@ fn fixed_steps_agree_in_all_lanes_and_with_an_accurate_run() {
         }
     }
     // rk4 is the default method of fixed steps
+    write(at, "steps.yaml", "step: 0.05 ms, method: rk4");
+    call(at, &["sweep", "steps.yaml", "--out", "rk4"], 0);
     write(at, "steps.yaml", "step: 0.05 ms");
     call(at, &["sweep", "steps.yaml", "--out", "said-nothing"], 0);
     let [said, nothing] = ["rk4", "said-nothing"]
         .map(|folder| std::fs::read(at.join(folder).join("results.csv")).unwrap());
     assert!(said == nothing);
-    let (_, said) = call(at, &["sweep", "steps.yaml", "--out", "heun"], 2);
+    let (_, said) = call(at, &["sweep", "steps.yaml", "--out", "sharp"], 2);
     assert!(said.contains("differs: the study"), "{said}");
 }
 

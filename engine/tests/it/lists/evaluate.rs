@@ -1,12 +1,12 @@
 //! Plain evaluation of a list, to compare with.
 
+use bryant_engine::inside::Library;
 use bryant_generator::expression::Function;
 use bryant_generator::model::Extrapolate;
 use bryant_generator::program::{Curve, Input, List, Operation};
 use bryant_generator::target::machine::Callee;
 use bryant_runtime::Real;
-use bryant_runtime::curve::Table;
-use bryant_runtime::force::{power, switch};
+use std::sync::LazyLock;
 
 /// The inputs of lists, by regions.
 pub struct Given<T> {
@@ -94,9 +94,22 @@ pub fn curves() -> Vec<Curve> {
     ]
 }
 
-/// A curve of [`curves`] as the runtime evaluates it.
-fn table(index: u32) -> Table {
-    crate::call::table(&curves()[index as usize])
+/// The functions, with these curves. They are compiled in the engine for each scalar, and not here once more.
+static LIBRARY: LazyLock<Library> = LazyLock::new(|| Library::new(&curves(), None));
+
+/// True if [`called`] calls the function itself.
+fn is_called(function: Function) -> bool {
+    match function {
+        Function::Approach(call) => call.early,
+        _ => matches!(
+            function,
+            Function::Power
+                | Function::Choose
+                | Function::Curve(_)
+                | Function::CurveSlope(_)
+                | Function::CurveBreakpoints(_)
+        ),
+    }
 }
 
 /// The results of a function. Searches and functions of the user are replaced by weighted sums, with other weights
@@ -104,16 +117,9 @@ fn table(index: u32) -> Table {
 pub fn called<T: Real>(callee: Callee, arguments: &[T]) -> Vec<T> {
     let a = arguments;
     match callee {
-        Callee::Function(Function::Power) => vec![power::power(a[0], a[1])],
-        Callee::Function(Function::Choose) => vec![switch::choose(a[0], a[1], a[2], a[3])],
-        Callee::Function(Function::Curve(index)) => vec![table(index).value(a[0])],
-        Callee::Function(Function::CurveSlope(index)) => vec![table(index).slope(a[0])],
-        Callee::Function(Function::CurveBreakpoints(index)) => {
-            vec![table(index).breakpoint_indicator(a[0])]
-        }
-        Callee::Function(Function::Approach(call)) if call.early => {
+        Callee::Function(function) if is_called(function) => {
             let mut found = vec![a[0]; callee.results()];
-            crate::call::approach(call, a, &mut found);
+            LIBRARY.call(function, a, &mut found);
             found
         }
         Callee::SinCos => {

@@ -1,9 +1,9 @@
 //! Tests on this processor.
 
-use super::{Call, Compiled, compile, target};
-use crate::execute::Given as Point;
-use crate::tests::evaluate::{Given, called, curves, results};
-use crate::tests::random::{INPUTS, Mix, Random, list};
+use super::evaluate::{Given, called, curves, results};
+use super::random::{INPUTS, Mix, Random, list};
+use bryant_engine::Given as Point;
+use bryant_engine::inside::{Call, Compiled, compile, target};
 use bryant_generator::expression::Function;
 use bryant_generator::program::List;
 use bryant_generator::target::machine::Callee;
