@@ -59,7 +59,9 @@ pub mod method;
 pub mod model;
 pub mod model_text;
 pub mod motion;
-mod names;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod names;
 pub mod program;
 pub mod read;
 #[doc(hidden)]

@@ -4,20 +4,20 @@ use rustc_hash::FxHashSet;
 
 /// Names taken so far in one scope.
 #[derive(Clone, Default)]
-pub(crate) struct Names {
+pub struct Names {
     taken: FxHashSet<String>,
 }
 
 impl Names {
     /// A scope in which these names are already taken.
-    pub(crate) fn with(reserved: &[&str]) -> Self {
+    pub fn with(reserved: &[&str]) -> Self {
         Self {
             taken: reserved.iter().map(|name| name.to_string()).collect(),
         }
     }
 
     /// Takes the name, or the first of `name_2`, `name_3` … that is free.
-    pub(crate) fn take(&mut self, wanted: &str) -> String {
+    pub fn take(&mut self, wanted: &str) -> String {
         let mut name = wanted.to_string();
         let mut number = 1;
         while !self.taken.insert(name.clone()) {
@@ -42,7 +42,7 @@ pub(crate) fn plain(text: &str) -> String {
 
 /// Words that get a trailing underscore: the keywords of Rust, in lower case. Some keywords are not allowed even as raw
 /// identifiers.
-const RESERVED: &[&str] = &[
+pub const RESERVED: &[&str] = &[
     "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate",
     "do", "dyn", "else", "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl",
     "in", "let", "loop", "macro", "match", "mod", "move", "mut", "override", "priv", "pub", "ref",
@@ -51,7 +51,7 @@ const RESERVED: &[&str] = &[
 ];
 
 /// An identifier in snake case from words such as "man/head.angle"; `value` if the words contain no letter or digit.
-pub(crate) fn snake(words: &str) -> String {
+pub fn snake(words: &str) -> String {
     let mut name = String::with_capacity(words.len());
     for c in words.chars() {
         if c.is_ascii_alphanumeric() {
@@ -70,12 +70,12 @@ pub(crate) fn snake(words: &str) -> String {
 }
 
 /// The same in the case of constants.
-pub(crate) fn screaming(words: &str) -> String {
+pub fn screaming(words: &str) -> String {
     snake(words).trim_end_matches('_').to_ascii_uppercase()
 }
 
 /// The same in the case of types.
-pub(crate) fn camel(words: &str) -> String {
+pub fn camel(words: &str) -> String {
     snake(words)
         .split('_')
         .flat_map(|word| {
@@ -83,44 +83,4 @@ pub(crate) fn camel(words: &str) -> String {
             [first.to_ascii_uppercase(), rest.to_string()]
         })
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_become_identifiers() {
-        assert_eq!(snake("man/head.angle"), "man_head_angle");
-        assert_eq!(snake("Lap belt -- left"), "lap_belt_left");
-        assert_eq!(snake("3yo"), "n3yo");
-        assert_eq!(snake("ω"), "value");
-        assert_eq!(screaming("belt chest force"), "BELT_CHEST_FORCE");
-        assert_eq!(camel("mass_matrix"), "MassMatrix");
-    }
-
-    #[test]
-    fn keywords_are_avoided() {
-        for word in [
-            "type", "self", "fn", "loop", "async", "gen", "Self", "super", "crate",
-        ] {
-            let name = snake(word);
-            assert!(syn::parse_str::<syn::Ident>(&name).is_ok(), "{name}");
-            assert_ne!(name, word.to_ascii_lowercase());
-        }
-    }
-
-    #[test]
-    fn what_is_reserved_is_a_keyword_of_rust() {
-        for word in RESERVED.iter().filter(|&&word| word != "gen") {
-            assert!(syn::parse_str::<syn::Ident>(word).is_err(), "{word}");
-        }
-    }
-
-    #[test]
-    fn a_name_is_given_once() {
-        let mut names = Names::with(&["q"]);
-        let given = ["a", "a", "q", "a_2", "a"].map(|name| names.take(name));
-        assert_eq!(given, ["a", "a_2", "q_2", "a_2_2", "a_3"]);
-    }
 }

@@ -42,7 +42,9 @@ mod curves_of_time;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod derivatives;
-mod elimination;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod elimination;
 mod energy;
 mod factorization;
 pub mod functions;

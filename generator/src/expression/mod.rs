@@ -11,8 +11,6 @@ pub mod live;
 pub mod node;
 pub mod passes;
 pub mod print;
-#[cfg(test)]
-mod properties;
 pub mod vector;
 
 pub use graph::{Expr, Graph, choose, owner, sum};

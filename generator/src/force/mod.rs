@@ -2,7 +2,9 @@
 //! the elements that it touches, has states and events, and leaves its [`Measures`] for the outputs. The laws themselves
 //! are in [`law`](crate::law); no file of this folder names one.
 
-pub(crate) mod branches;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod branches;
 pub mod events;
 pub(crate) mod fade;
 pub(crate) mod hysteresis;

@@ -13,10 +13,16 @@
 //! its joint on the carrying element; that of the pelvis is midway between the hips.
 
 mod body;
-mod data;
-mod dummy;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod data;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod dummy;
 mod posture;
-mod size;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod size;
 mod text;
 
 pub use body::{Body, Element, Shape, body};

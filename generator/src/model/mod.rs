@@ -10,7 +10,9 @@ mod body;
 mod coefficient;
 mod criteria;
 mod curve;
-mod digest;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod digest;
 mod dimension;
 mod force;
 pub mod joint;
@@ -26,7 +28,9 @@ pub mod part;
 pub mod placement;
 mod quantity;
 pub(crate) mod requirement;
-pub(crate) mod resolve;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod resolve;
 pub mod rule;
 pub mod scene;
 mod surface;
@@ -34,7 +38,9 @@ mod switch;
 mod system;
 mod thin;
 pub mod units;
-pub(crate) mod unloading;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod unloading;
 
 pub use crate::description::joint::Coordinate;
 pub use body::{Attachment, Body, ElementId};

@@ -20,9 +20,13 @@
 //! [`Config::lists`](crate::Config::lists) makes them.
 
 mod assemble;
-mod breakpoints;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod breakpoints;
 mod facts;
-mod form;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod form;
 pub(crate) mod formula;
 pub(crate) mod hoist;
 mod inline;
@@ -30,10 +34,14 @@ mod join;
 mod list;
 mod lists;
 mod lower;
-pub(crate) mod order;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod order;
 pub(crate) mod plan;
 mod prepare;
-pub(crate) mod schedule;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod schedule;
 pub(crate) mod split;
 
 use crate::equations::Equations;

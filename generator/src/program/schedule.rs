@@ -216,7 +216,7 @@ pub(crate) fn index(id: NodeId) -> usize {
 }
 
 /// By node: the number of its uses; 0 if the roots do not need it.
-pub(crate) fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
+pub fn uses(graph: &Graph, roots: &[NodeId]) -> Vec<u32> {
     let mut uses = vec![0; graph.len()];
     for &root in roots {
         uses[index(root)] += 1;

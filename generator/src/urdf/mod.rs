@@ -8,13 +8,17 @@
 //! `known.rs`. `tree.rs` turns links and joints into systems, `repair.rs` changes their inertia on demand, and `write.rs` writes the systems.
 
 mod coupling;
-mod inertia;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod inertia;
 mod inspect;
 mod joint;
 mod kind;
 mod known;
 mod massless;
-mod reader;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod reader;
 mod repair;
 mod robot;
 mod root;

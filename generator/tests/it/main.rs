@@ -18,5 +18,6 @@ mod reference;
 mod share;
 mod short;
 mod texts;
+mod units;
 mod urdf;
 mod user;

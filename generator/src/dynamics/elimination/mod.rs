@@ -26,7 +26,9 @@
 mod absolute;
 mod frame;
 mod link;
-mod tip;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod tip;
 
 use super::augmented::AugmentedTree;
 use super::factorization::Ldl;

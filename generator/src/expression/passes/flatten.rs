@@ -12,14 +12,14 @@ use crate::expression::live::Live;
 use crate::expression::node::{Node, NodeId};
 
 /// Index of an operand: a node or, from the number of nodes on, a pair that was found later.
-pub(super) type Element = u32;
+pub type Element = u32;
 
 /// A list of operands with signs.
-pub(super) type Signed = Vec<(bool, Element)>;
+pub type Signed = Vec<(bool, Element)>;
 
 /// The role of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Role {
+pub enum Role {
     /// Not live, or a sign, or a member of the list of its only user.
     Within,
     /// A sum: its index in `sums`.
@@ -33,7 +33,7 @@ pub(super) enum Role {
 }
 
 /// The lists of sums and products.
-pub(super) struct Flat {
+pub struct Flat {
     /// The role of each node.
     pub role: Vec<Role>,
     /// Terms, ordered.
@@ -45,7 +45,7 @@ pub(super) struct Flat {
 }
 
 /// The node without its signs, and whether the sign is negative.
-pub(super) fn unsigned(nodes: &[Node], id: NodeId) -> (bool, NodeId) {
+pub fn unsigned(nodes: &[Node], id: NodeId) -> (bool, NodeId) {
     let (mut negative, mut id) = (false, id);
     while let Node::Neg(a) = nodes[id.0 as usize] {
         (negative, id) = (!negative, a);
@@ -55,7 +55,7 @@ pub(super) fn unsigned(nodes: &[Node], id: NodeId) -> (bool, NodeId) {
 
 /// The sums and products of the nodes that are live.
 // Long: one pass over the nodes, whose steps share the lists that are open.
-pub(super) fn flatten(graph: &Graph, live: &Live) -> Flat {
+pub fn flatten(graph: &Graph, live: &Live) -> Flat {
     let nodes = graph.nodes();
     let users = Users::of(&nodes, live);
     let owners = graph.owners();
@@ -213,51 +213,5 @@ impl Users {
             1 => self.last[id.0 as usize],
             _ => None,
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::expression::Symbol;
-
-    #[test]
-    fn sums_are_lists_with_signs() {
-        let graph = Graph::new();
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| graph.symbol(Symbol::Coordinate(i)));
-        let product = a * d;
-        let total = a + b - (c - d) - product;
-        let flat = flatten(&graph, &Live::new(&graph, &[total.id()]));
-        let base = unsigned(&graph.nodes(), total.id()).1;
-        assert!(matches!(flat.role[base.0 as usize], Role::Sum(0)));
-        assert_eq!(flat.role[product.id().0 as usize], Role::Term(0));
-        let expected = [
-            (false, a),
-            (false, b),
-            (true, c),
-            (false, d),
-            (true, product),
-        ];
-        let flipped = unsigned(&graph.nodes(), total.id()).0;
-        let expected: Signed = expected.map(|(sign, e)| (sign ^ flipped, e.id().0)).into();
-        assert_eq!(flat.sums, [expected]);
-    }
-
-    #[test]
-    fn what_is_shared_is_an_operand() {
-        let graph = Graph::new();
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| graph.symbol(Symbol::Coordinate(i)));
-        let shared = a * b;
-        let (left, right) = (shared * c, shared * d);
-        let flat = flatten(&graph, &Live::new(&graph, &[left.id(), right.id()]));
-        let list = |x: [NodeId; 2]| Signed::from([(false, x[0].0), (false, x[1].0)]);
-        assert_eq!(
-            flat.products,
-            [
-                list([a.id(), b.id()]),
-                list([c.id(), shared.id()]),
-                list([d.id(), shared.id()])
-            ]
-        );
     }
 }

@@ -7,9 +7,13 @@
 //! one evaluation: a value that two functions use once each is not shared between them.
 
 pub mod factor;
-mod flatten;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod flatten;
 pub mod fuse;
-mod pairs;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod pairs;
 pub mod rebuild;
 pub mod recall;
 pub mod replace;

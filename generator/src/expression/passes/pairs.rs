@@ -13,7 +13,7 @@ const WINDOW: usize = 16;
 
 /// A new operand: first + second, first − second or first · second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Pair {
+pub struct Pair {
     pub first: Element,
     pub second: Element,
     /// True if the second operand has the opposite sign.
@@ -22,7 +22,7 @@ pub(super) struct Pair {
 
 /// Removes pairs that occur in at least two lists from these lists, and appends new operands, numbered from `next`,
 /// that stand for them. A pair may contain older pairs. Lists must be ordered by operand, and stay so.
-pub(super) fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
+pub fn extract_pairs(lists: &mut [Signed], next: Element) -> Vec<Pair> {
     // what only one list has is in no common pair
     let mut occurrences = vec![0u32; next as usize];
     for (_, element) in lists.iter().flatten() {
@@ -129,75 +129,4 @@ fn sign_of(list: &Signed, pair: Pair) -> Option<bool> {
 fn remove(list: &mut Signed, element: Element) {
     let at = list.partition_point(|&(_, e)| e < element);
     list.remove(at);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn plus(elements: &[Element]) -> Signed {
-        elements.iter().map(|&e| (false, e)).collect()
-    }
-
-    #[test]
-    fn the_most_frequent_pair_goes_first() {
-        let mut lists = [
-            plus(&[1, 2, 3]),
-            plus(&[1, 2, 4]),
-            plus(&[2, 3, 5]),
-            plus(&[2, 3]),
-        ];
-        let pairs = extract_pairs(&mut lists, 10);
-        let expected = Pair {
-            first: 2,
-            second: 3,
-            opposite: false,
-        };
-        assert_eq!(pairs, [expected]);
-        assert_eq!(
-            lists,
-            [
-                plus(&[1, 10]),
-                plus(&[1, 2, 4]),
-                plus(&[5, 10]),
-                plus(&[10])
-            ]
-        );
-    }
-
-    #[test]
-    fn pairs_are_equal_up_to_sign() {
-        let mut lists = [
-            vec![(false, 1), (true, 2), (false, 3)],
-            vec![(true, 1), (false, 2), (false, 4)],
-            vec![(false, 1), (false, 2), (false, 5)],
-        ];
-        let pairs = extract_pairs(&mut lists, 10);
-        assert_eq!(pairs.len(), 1);
-        assert!(pairs[0].opposite);
-        assert_eq!(lists[0], [(false, 3), (false, 10)]);
-        assert_eq!(lists[1], [(false, 4), (true, 10)]);
-        assert_eq!(lists[2].len(), 3);
-    }
-
-    #[test]
-    fn pairs_of_pairs() {
-        let mut lists = [plus(&[1, 2, 3, 4]), plus(&[1, 2, 3, 5]), plus(&[1, 2, 3])];
-        let pairs = extract_pairs(&mut lists, 10);
-        assert_eq!(pairs.len(), 2);
-        assert_eq!(lists, [plus(&[4, 11]), plus(&[5, 11]), plus(&[11])]);
-    }
-
-    #[test]
-    fn squares_are_pairs() {
-        let mut lists = [plus(&[1, 1, 2]), plus(&[1, 1, 3]), plus(&[1, 3])];
-        let pairs = extract_pairs(&mut lists, 10);
-        assert!(pairs.contains(&Pair {
-            first: 1,
-            second: 1,
-            opposite: false
-        }));
-        let operations = |lists: &[Signed]| lists.iter().map(|l| l.len() - 1).sum::<usize>();
-        assert_eq!(operations(&lists) + pairs.len(), 4);
-    }
 }

@@ -650,7 +650,7 @@ fn check_user_source(resolver: &Resolver<'_>, written: &Written, user: &User, at
 }
 
 /// A path relative to a directory. Both must be absolute, or relative to the same directory.
-fn relative(path: &Path, directory: &Path) -> PathBuf {
+pub fn relative(path: &Path, directory: &Path) -> PathBuf {
     if path.is_absolute() != directory.is_absolute() {
         return path.to_owned();
     }
@@ -664,28 +664,4 @@ fn relative(path: &Path, directory: &Path) -> PathBuf {
     }
     let up = directory.map(|_| Component::ParentDir);
     up.chain(path).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_file_has_the_same_name_from_everywhere() {
-        for (path, directory, name) in [
-            ("models/drag.rs", "models", "drag.rs"),
-            ("drag.rs", "", "drag.rs"),
-            ("/a/models/parts/drag.rs", "/a/models", "parts/drag.rs"),
-            ("../models/drag.rs", "models", "../../models/drag.rs"),
-            (
-                "/a/models/drag.rs",
-                "/a/tests/models",
-                "../../models/drag.rs",
-            ),
-            ("/a/drag.rs", "models", "/a/drag.rs"),
-        ] {
-            let found = relative(Path::new(path), Path::new(directory));
-            assert_eq!(found, Path::new(name), "{path} from {directory}");
-        }
-    }
 }

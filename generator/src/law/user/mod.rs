@@ -1,6 +1,8 @@
 //! A force by a function of the user's.
 
-pub(crate) mod check;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod check;
 pub(crate) mod force;
 pub mod keys;
 pub(crate) mod outputs;

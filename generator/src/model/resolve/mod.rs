@@ -18,7 +18,9 @@ mod follows;
 mod formula;
 pub(crate) mod hysteresis;
 pub(crate) mod joint;
-pub(crate) mod kinematics;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod kinematics;
 pub(crate) mod law;
 mod mesh;
 mod mobility;
@@ -26,7 +28,9 @@ pub(crate) mod name;
 pub(crate) mod output;
 mod parameter;
 pub(crate) mod quantity;
-pub(crate) mod regularity;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod regularity;
 pub(crate) mod run;
 pub(crate) mod rust;
 pub(crate) mod surface;

@@ -17,7 +17,7 @@ const POINTERS: General = General(0);
 const ARGUMENTS: General = General(1);
 const RESULTS: General = General(2);
 /// Two registers that hold numbers for a few instructions. A caller must expect that a call changes them.
-pub(super) const SCRATCH: General = General(16);
+pub const SCRATCH: General = General(16);
 const OTHER_SCRATCH: General = General(17);
 const FRAME_POINTER: General = General(29);
 /// The first of the registers x19 to x28, which a function must restore.
@@ -26,7 +26,7 @@ const FIRST_KEPT: u8 = 19;
 pub(super) const KEPT_VECTORS: u32 = 0xff00;
 
 /// The registers that hold the pointers to regions of memory while the function runs.
-pub(super) struct Bases {
+pub struct Bases {
     /// True if the function calls others. The pointers are then in registers that calls preserve.
     calls: bool,
     /// A bit for each pointer that is used, by its index; the last bit is that of the constants.

@@ -6,14 +6,14 @@ use super::encode::{
     with_distance,
 };
 use super::pairs;
-use crate::target::machine::emit::{At, Emitter, Processor};
+use crate::target::machine::emit::{At, Emitter, Processor, Writer};
 use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
 use crate::target::machine::registers::{NEVER, Set};
 use crate::target::machine::shape::{Length, Precision, Shape};
 use crate::target::machine::steps::{Kind, Origin, Step};
 
 /// A processor of AArch64.
-pub(super) struct Arm {
+pub struct Arm {
     pub encoder: Encoder,
     bases: Bases,
     /// The two values of the last comparison of scalars, if the condition flags still hold its result.
@@ -109,7 +109,9 @@ impl Processor for Arm {
         arm.encoder.first_word(SCRATCH, scratch);
         arm.encoder.jump_if_zero(SCRATCH)
     }
+}
 
+impl Writer for Arm {
     fn load(&mut self, shape: Shape, register: Vector, from: At) {
         self.access(false, shape, from, register);
     }

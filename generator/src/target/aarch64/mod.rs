@@ -8,12 +8,18 @@
 //! | `abi` | the calling convention |
 //! | `encode` | instructions as words |
 
-mod abi;
-mod emit;
-mod encode;
-mod pairs;
-#[cfg(test)]
-mod tests;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod abi;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod emit;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod encode;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod pairs;
 
 use super::machine::Code;
 use super::machine::emit::emit;

@@ -11,7 +11,7 @@ const REACH: usize = 48;
 
 /// Joins moves. `borders` is true for each instruction that a branch goes to. Returns true for each instruction that is
 /// left out.
-pub(super) fn join(instructions: &mut [Instruction], borders: &[bool]) -> Vec<bool> {
+pub fn join(instructions: &mut [Instruction], borders: &[bool]) -> Vec<bool> {
     let mut gone = vec![false; instructions.len()];
     for first in 0..instructions.len() {
         let Effect::Access(access) = instructions[first].effect else {

@@ -18,8 +18,12 @@ mod body;
 mod curve;
 mod header;
 mod methods;
-mod names;
-mod support;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod names;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod support;
 
 use crate::expression::Function;
 use crate::program::{Curve, List, Lists, Operation};

@@ -4,7 +4,7 @@ use rustc_hash::FxHashSet;
 
 /// Lowercase letters, digits and single underscores, made from words such as "man/head.angle": `man_head_angle`. The
 /// caller puts a prefix before the result, so the result may begin with a digit, and may be empty.
-pub(super) fn snake(words: &str) -> String {
+pub fn snake(words: &str) -> String {
     let letter = |c: char| match c.is_ascii_alphanumeric() {
         true => c.to_ascii_lowercase(),
         false => '_',
@@ -15,7 +15,7 @@ pub(super) fn snake(words: &str) -> String {
 }
 
 /// The name of a model in C; `model` if no letter or digit of the words is left.
-pub(super) fn model(words: &str) -> String {
+pub fn model(words: &str) -> String {
     let name = snake(words);
     match name.chars().next() {
         None => "model".to_owned(),
@@ -26,7 +26,7 @@ pub(super) fn model(words: &str) -> String {
 
 /// The names of enumerators used so far.
 #[derive(Default)]
-pub(super) struct Enumerators(FxHashSet<String>);
+pub struct Enumerators(FxHashSet<String>);
 
 impl Enumerators {
     /// The enumerator for these words, or the first of `NAME_2`, `NAME_3`, … that is unused.
@@ -39,21 +39,5 @@ impl Enumerators {
             name = format!("{wanted}_{number}");
         }
         name
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Enumerators, model, snake};
-
-    #[test]
-    fn words_become_identifiers() {
-        assert_eq!(snake("man/head.angle"), "man_head_angle");
-        assert_eq!(snake("Lap belt -- left"), "lap_belt_left");
-        assert_eq!(model("3yo"), "model_3yo");
-        assert_eq!(model("ω"), "model");
-        let mut names = Enumerators::default();
-        let given = ["a b", "a-b", "ω"].map(|words| names.take("x_output", words));
-        assert_eq!(given, ["X_OUTPUT_A_B", "X_OUTPUT_A_B_2", "X_OUTPUT_"]);
     }
 }

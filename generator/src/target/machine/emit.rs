@@ -37,15 +37,8 @@ pub(crate) struct Needs {
     pub steps: usize,
 }
 
-/// A processor with the code that was written for it so far.
-pub(crate) trait Processor: Sized {
-    /// A bit for each vector register that is used before the others.
-    const TAKEN_FIRST: u32;
-    /// Emits a step of arithmetic, neither a call nor a branch.
-    fn step(emitter: &mut Emitter<'_, Self>, step: &Step);
-    /// Emits a jump that is taken unless the number in the register `size` is below the constant `limit` in all lanes.
-    /// The registers in `keep` are not changed.
-    fn jump_if_rare(emitter: &mut Emitter<'_, Self>, size: Vector, limit: u32, keep: Set) -> Jump;
+/// The code that was written for a processor so far: moves, calls and jumps.
+pub trait Writer: Sized {
     /// register = a slot of memory
     fn load(&mut self, shape: Shape, register: Vector, from: At);
     /// register = a constant, in every lane. `offset` is its distance in bytes from the beginning of the constants.
@@ -72,6 +65,17 @@ pub(crate) trait Processor: Sized {
     fn call_place(&mut self, place: Place);
     /// The code, followed by the constants from the next multiple of 64 bytes on.
     fn finish(self, constants: Vec<u8>) -> Vec<u8>;
+}
+
+/// A processor, as the writer of its code.
+pub(crate) trait Processor: Writer {
+    /// A bit for each vector register that is used before the others.
+    const TAKEN_FIRST: u32;
+    /// Emits a step of arithmetic, neither a call nor a branch.
+    fn step(emitter: &mut Emitter<'_, Self>, step: &Step);
+    /// Emits a jump that is taken unless the number in the register `size` is below the constant `limit` in all lanes.
+    /// The registers in `keep` are not changed.
+    fn jump_if_rare(emitter: &mut Emitter<'_, Self>, size: Vector, limit: u32, keep: Set) -> Jump;
 }
 
 /// Emits the function for these steps, which must be the steps of `list`. `registers` is the number of vector registers

@@ -24,15 +24,23 @@
 mod angle;
 mod approach;
 mod base;
-pub(crate) mod emit;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod emit;
 mod laws;
 mod numbers;
-pub(crate) mod operation;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod operation;
 mod rare;
 pub(crate) mod registers;
-pub(crate) mod shape;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod shape;
 mod sine;
-mod slots;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod slots;
 pub(crate) mod steps;
 mod terms;
 

@@ -2,7 +2,7 @@
 
 /// Keeps track of which slots are taken.
 #[derive(Default)]
-pub(crate) struct Slots {
+pub struct Slots {
     /// A bit for each slot: 1 if the slot is free.
     free: Vec<u64>,
     /// Index of the first word that may have a free slot.
@@ -70,34 +70,5 @@ impl Slots {
         self.count += count;
         self.free.resize(self.count.div_ceil(64) as usize, 0);
         start
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Slots;
-
-    #[test]
-    fn the_lowest_free_slot_is_taken() {
-        let mut slots = Slots::default();
-        assert_eq!([0, 1, 2].map(|_| slots.take()), [0, 1, 2]);
-        slots.give_back(1);
-        slots.give_back(0);
-        assert_eq!([0, 1, 2].map(|_| slots.take()), [0, 1, 3]);
-        assert_eq!(slots.count(), 4);
-    }
-
-    #[test]
-    fn several_slots_stand_side_by_side() {
-        let mut slots = Slots::default();
-        assert_eq!(slots.take_several(130), 0);
-        for slot in [3, 5, 6, 63, 64, 65] {
-            slots.give_back(slot);
-        }
-        assert_eq!(slots.take_several(2), 5);
-        assert_eq!(slots.take_several(3), 63);
-        assert_eq!(slots.take_several(2), 130);
-        assert_eq!(slots.take(), 3);
-        assert_eq!(slots.take(), 132);
     }
 }

@@ -16,8 +16,12 @@
 //! a number.
 
 mod argument;
-mod comment;
-mod expression;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod comment;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod expression;
 mod function;
 mod header;
 mod implementation;
@@ -26,7 +30,9 @@ mod library;
 mod method;
 mod naming;
 mod operations;
-mod results;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod results;
 mod syntax;
 mod user;
 

@@ -6,7 +6,7 @@
 use super::Target;
 use super::abi::Bases;
 use super::encode::{Comparison, Encoder, Form, Memory, Operand};
-use crate::target::machine::emit::{At, Emitter, Home, Needs, Processor};
+use crate::target::machine::emit::{At, Emitter, Home, Needs, Processor, Writer};
 use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
 use crate::target::machine::registers::{NEVER, Set};
 use crate::target::machine::shape::{Length, Shape};
@@ -103,7 +103,9 @@ impl Processor for X86 {
             encoder.jump_if_signed(shape, scratch)
         }
     }
+}
 
+impl Writer for X86 {
     fn load(&mut self, shape: Shape, register: Vector, from: At) {
         let memory = self.memory(from);
         self.encoder.load(shape, register, memory);

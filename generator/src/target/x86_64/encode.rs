@@ -19,7 +19,6 @@ pub enum General {
     /// Preserved by calls.
     Rbx = 3,
     /// The stack.
-    #[cfg_attr(not(test), expect(dead_code, reason = "completes the set"))]
     Rsp = 4,
     /// Preserved by calls.
     Rbp = 5,

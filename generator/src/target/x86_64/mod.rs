@@ -8,9 +8,9 @@
 
 mod abi;
 mod emit;
-mod encode;
-#[cfg(test)]
-mod tests;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod encode;
 
 use super::machine::emit::emit;
 use super::machine::shape::{Shape, Values};

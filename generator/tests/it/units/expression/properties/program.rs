@@ -1,6 +1,6 @@
 //! Random expressions as programs. Each step applies an operation to earlier values, so that values are shared.
 
-use crate::expression::{Expr, Function};
+use bryant_generator::expression::{Expr, Function};
 use proptest::prelude::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 

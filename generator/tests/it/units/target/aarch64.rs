@@ -1,13 +1,13 @@
 //! Another decoder reads back every instruction, with every kind of operand. Its text is compared with that of the intended instruction.
 
-use super::abi::{Bases, SCRATCH};
-use super::emit::Arm;
-use super::encode::*;
-use super::pairs;
-use crate::target::machine::Base;
-use crate::target::machine::emit::Processor;
-use crate::target::machine::operation::{Binary, Bitwise, Signs, Vector};
-use crate::target::machine::shape::{Length, Precision, Shape};
+use bryant_generator::target::aarch64::abi::{Bases, SCRATCH};
+use bryant_generator::target::aarch64::emit::Arm;
+use bryant_generator::target::aarch64::encode::*;
+use bryant_generator::target::aarch64::pairs;
+use bryant_generator::target::machine::Base;
+use bryant_generator::target::machine::emit::Writer;
+use bryant_generator::target::machine::operation::{Binary, Bitwise, Signs, Vector};
+use bryant_generator::target::machine::shape::{Length, Precision, Shape};
 use yaxpeax_arch::{Decoder, U8Reader};
 use yaxpeax_arm::armv8::a64::InstDecoder;
 

@@ -8,12 +8,13 @@ mod parse;
 mod program;
 mod scalars;
 
-use super::count::Count;
-use super::differentiate::differentiate;
-use super::evaluate::{Inputs, evaluate};
-use super::passes::{Rewritten, factor, fuse, rebuild};
-use super::print::{Names, symbol_name, text};
-use super::{Expr, Graph, NodeId, Symbol};
+use bryant_generator::expression::count::Count;
+use bryant_generator::expression::differentiate::differentiate;
+use bryant_generator::expression::evaluate::{Inputs, evaluate};
+use bryant_generator::expression::passes::factor::cost;
+use bryant_generator::expression::passes::{Rewritten, factor, fuse, rebuild};
+use bryant_generator::expression::print::{Names, symbol_name, text};
+use bryant_generator::expression::{Expr, Graph, NodeId, Symbol};
 use program::{Program, programs};
 use proptest::prelude::*;
 use scalars::{Bounded, Curves, Dual};
@@ -106,7 +107,7 @@ proptest! {
         // Fusing joins two operations, both of which are counted.
         prop_assert_eq!(counted(&fuse(&graph, &roots)).total(), before.total());
         let after = counted(&factor(&graph, &roots));
-        prop_assert!(super::passes::factor::cost(&after) <= super::passes::factor::cost(&before));
+        prop_assert!(cost(&after) <= cost(&before));
         // Only a reciprocal may add an operation, and it replaces at least two quotients.
         let reciprocals = before.div.saturating_sub(after.div);
         prop_assert!(after.total() <= before.total() + reciprocals);

@@ -1,8 +1,8 @@
 //! Scalars that know more than their value: a bound of its rounding error, or its derivative.
 
 use super::program::Value;
-use crate::expression::Function;
-use crate::expression::evaluate::{Functions, Scalar};
+use bryant_generator::expression::Function;
+use bryant_generator::expression::evaluate::{Functions, Scalar};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and a bound of its error, to first order (running error analysis, Higham, *Accuracy and stability of

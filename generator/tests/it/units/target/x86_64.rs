@@ -1,8 +1,8 @@
 //! Another decoder reads back every instruction, with every kind of operand. The result is compared with the intended instruction.
 
-use super::encode::*;
-use crate::target::machine::operation::{Binary, Bitwise, Signs, Vector};
-use crate::target::machine::shape::{Length, Precision, Shape};
+use bryant_generator::target::machine::operation::{Binary, Bitwise, Signs, Vector};
+use bryant_generator::target::machine::shape::{Length, Precision, Shape};
+use bryant_generator::target::x86_64::encode::*;
 use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register};
 
 /// The intended instruction: its name and operands.

@@ -1,0 +1,5 @@
+mod expression;
+mod measure;
+mod slip;
+mod table;
+mod what;

@@ -1,0 +1,2 @@
+mod augmented;
+mod elimination;

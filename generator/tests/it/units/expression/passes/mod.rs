@@ -1,0 +1,7 @@
+mod factor;
+mod flatten;
+mod fuse;
+mod pairs;
+mod rebuild;
+mod recall;
+mod replace;

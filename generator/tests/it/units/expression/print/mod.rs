@@ -1,0 +1,2 @@
+mod latex;
+mod text;

@@ -1,0 +1,2 @@
+mod kinematics;
+mod regularity;

@@ -1,0 +1,3 @@
+mod breakpoints;
+mod form;
+mod order;

@@ -1,0 +1,5 @@
+mod aarch64;
+mod c;
+mod machine;
+mod rust;
+mod x86_64;

@@ -1,0 +1,3 @@
+mod comment;
+mod expression;
+mod results;

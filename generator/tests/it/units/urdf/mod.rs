@@ -1,0 +1,2 @@
+mod inertia;
+mod reader;
