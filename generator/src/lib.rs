@@ -39,7 +39,7 @@
 //!
 //! The steps in between are functions, too: [`read()`] checks a description, [`dynamics::derive`] makes its
 //! equations, [`target::rust::module`] writes them.
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![warn(clippy::disallowed_methods)]
 
 pub mod car_part;
 pub mod config;

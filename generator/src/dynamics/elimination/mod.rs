@@ -6,19 +6,19 @@
 //! f = μ a − Q (a + a₀) + h
 //!
 //! at the joint. μ is a constant and Q a symmetric 3×3 matrix; a₀ and h are the bias, i.e. the terms that do not depend
-//! on a ([`ArticulatedBody`]). Only Q is transformed from joint to joint; its six entries keep it symmetric. μ is added
+//! on a (`ArticulatedBody`). Only Q is transformed from joint to joint; its six entries keep it symmetric. μ is added
 //! to the constants of the body inboard, as a point mass at the joint. Each element chooses the μ and a₀ that suit it:
 //!
 //! | element | strategy |
 //! |---|---|
-//! | any | [`absolute`]: moments about the absolute axes, 3×3 matrix |
-//! | one joint outboard, no force | [`link`]: axes along the link, 2×2 matrix; the row of the spin about the link contains only constants of the body |
-//! | no joint outboard, no force | [`tip`]: Q is constant in the frame of the body, no factorisation |
+//! | any | `absolute`: moments about the absolute axes, 3×3 matrix |
+//! | one joint outboard, no force | `link`: axes along the link, 2×2 matrix; the row of the spin about the link contains only constants of the body |
+//! | no joint outboard, no force | `tip`: Q is constant in the frame of the body, no factorisation |
 //!
 //! From the leaves to the root, each element combines the articulated inertias of its children into its own. From the
 //! root to the leaves, a of the root is given or follows from f = 0; then each element gets α from a, and its children
 //! a_c = a + α × u_c + γ(u_c). The velocity part β of a is summed beforehand, β_c = β + γ(u_c), starting anew at 0
-//! behind each [`link`]; only a − β is passed on. For a floating system, a of the root is taken at the joint of one of
+//! behind each `link`; only a − β is passed on. For a floating system, a of the root is taken at the joint of one of
 //! its children, where u_c = 0; the reference joint follows last. A field common to the whole system acts like the
 //! opposite acceleration of the absolute frame, so it enters once, at the root. Bryant angles follow from φ̈ = W⁻¹ (α −
 //! ε).

@@ -131,7 +131,7 @@ pub(crate) fn resolve(
 /// The parts of a model that are resolved so far, and the problems.
 ///
 /// A function that checks a part of a description looks up here the names that the part mentions, adds problems to
-/// `problems`, and returns the checked form. Only the steps of [`Resolver::model`] enter checked forms here, with one
+/// `problems`, and returns the checked form. Only the steps of `Resolver::model` enter checked forms here, with one
 /// exception: curves that are written in place are entered when they are checked.
 pub struct Resolver<'a> {
     pub(crate) kinds: &'static Kinds,

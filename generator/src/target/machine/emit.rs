@@ -1,7 +1,7 @@
 //! Emits steps as instructions, and decides which values are in registers and which in memory.
 //!
 //! Steps are emitted in their order. A value stays in its register until it is no longer needed or another value needs
-//! the register. In the latter case it is stored in the frame, unless it is already in memory. The [`Processor`]
+//! the register. In the latter case it is stored in the frame, unless it is already in memory. The `Processor`
 //! decides which instructions a step takes, and whether they read operands from memory.
 
 use super::Code;

@@ -1,4 +1,4 @@
-//! Prints formulas as Rust. Their operations and brackets are decided by [`crate::program::formula`].
+//! Prints formulas as Rust. Their operations and brackets are decided by `program::formula`.
 
 use super::library::Library;
 use super::naming::Naming;
