@@ -296,3 +296,27 @@ fn comments_and_layout_do_not_count() {
     );
     assert_eq!(words("/* x */ a_1 += f(2); // y\n"), 8);
 }
+
+/// Where a library is not compiled as a test, a test among its sources would never run.
+#[test]
+fn no_test_is_where_it_is_not_compiled() {
+    let mut untested = 0;
+    for name in CRATES {
+        let of = root().join(name);
+        let manifest = fs::read_to_string(of.join("Cargo.toml")).unwrap();
+        let library = manifest.split("\n[").find(|part| part.starts_with("lib]"));
+        if !library.is_some_and(|part| part.contains("\ntest = false")) {
+            continue;
+        }
+        untested += 1;
+        let sources = of.join("src");
+        for path in files(&of).iter().filter(|path| path.starts_with(&sources)) {
+            let text = fs::read_to_string(path).unwrap_or_default();
+            let tested = ["#[test]", "cfg(test)"]
+                .iter()
+                .any(|mark| text.contains(mark));
+            assert!(!tested, "{}: its tests are not compiled", path.display());
+        }
+    }
+    assert!(untested > 1);
+}
