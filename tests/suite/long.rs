@@ -19,7 +19,7 @@ fn begin(directory: &Path, arguments: &[&str]) -> Child {
     let mut command = bryant(directory);
     command.args(arguments);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
-    command.env("BRYANT_PROGRESS", "2");
+    command.env("BRYANT_PROGRESS", "0.5");
     // tests in the background of a shell ignore Ctrl-C, and their child processes inherit this
     #[expect(unsafe_code, reason = "between fork and exec")]
     // SAFETY: `signal` may be called between fork and exec, and no handler is installed.
