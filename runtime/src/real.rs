@@ -264,6 +264,29 @@ pub trait Task {
     fn run(self) -> Self::Output;
 }
 
+/// An array of what a function gives for each index, from the first to the last. It is a plain loop, which is compiled
+/// for each function; behind [`core::array::from_fn`] are ten functions more.
+#[inline(always)]
+pub(crate) fn by_index<R: Copy, const N: usize>(mut of: impl FnMut(usize) -> R) -> [R; N] {
+    const { assert!(N > 0) };
+    let mut all = [of(0); N];
+    let mut i = 1;
+    while i < N {
+        all[i] = of(i);
+        i += 1;
+    }
+    all
+}
+
+/// An array of what a function gives for each entry, from the first to the last.
+#[inline(always)]
+pub(crate) fn mapped<A: Copy, R: Copy, const N: usize>(
+    entries: [A; N],
+    mut of: impl FnMut(A) -> R,
+) -> [R; N] {
+    by_index(|i| of(entries[i]))
+}
+
 /// Truth values, one per lane.
 pub trait Mask: Copy {
     /// True in at least one lane.

@@ -5,7 +5,7 @@ use super::run::{Run, Work};
 use super::step::Step;
 use crate::Real;
 use crate::integrate::acceleration::effect_accelerations;
-use crate::real::{Mask, Several};
+use crate::real::{Mask, Several, mapped};
 
 /// The largest accelerations that single effects cause at the starts of steps.
 struct EffectAccelerations;
@@ -16,8 +16,8 @@ impl<T: Several> Work<T> for EffectAccelerations {
     fn run(self, run: &mut Run<'_, T>) -> Self::Output {
         let Step { t, y, .. } = &run.step;
         let [one, other] = &mut run.powers;
-        effect_accelerations(&*run.models.all, *t, y, &mut run.state, [one, other])
-            .map(|found| found.part(0))
+        let found = effect_accelerations(&*run.models.all, *t, y, &mut run.state, [one, other]);
+        mapped(found, |found| found.part(0))
     }
 }
 

@@ -2,7 +2,7 @@
 //! single run, with selections in place of branches.
 
 use super::step::Step;
-use crate::real::{Mask, Several};
+use crate::real::{Mask, Several, mapped};
 use crate::simulate::excursion::Excursion;
 use crate::simulate::{Bracket, Course, WIDTH, Zero, change, opposite};
 use crate::{Dynamics, Real};
@@ -153,7 +153,7 @@ impl<T: Several> Probe<'_, T> {
     ) -> T::Mask {
         let nought = T::Part::from_f64(0.0);
         let far = (other - T::Part::from_f64(FAR)).max(nought).min(same);
-        let [near, far] = [same, far].map(|part| {
+        let [near, far] = mapped([same, far], |part| {
             let value = self.opposite(before, index, T::of_part(part));
             there.part(0) - value.part(0)
         });

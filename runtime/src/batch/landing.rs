@@ -6,7 +6,7 @@ use super::event::{Sides, width};
 use super::onset::END;
 use super::reach::Reach;
 use super::run::{Run, each, replace};
-use crate::real::{Mask, Several};
+use crate::real::{Mask, Several, mapped};
 use crate::simulate::finest;
 use crate::{Real, Section};
 
@@ -308,7 +308,7 @@ impl<T: Several> Run<'_, T> {
     fn going_on(&mut self, cut: T::Mask, part: T) -> T::Mask {
         let mut going_on = 0;
         for i in each(cut.lanes()).take_while(|i| *i < T::LANES) {
-            let [t, h, part] = [self.step.t, self.step.h, part].map(|x| x.lane(i).to_f64());
+            let [t, h, part] = mapped([self.step.t, self.step.h, part], |x| x.lane(i).to_f64());
             let finest = T::EPSILON / f64::EPSILON * finest(t);
             let standing = &mut self.lanes[i].standing;
             if standing.goes_on([part * h, h], finest, width::<T>()) {
@@ -330,7 +330,7 @@ const MOST: f64 = 1e30;
 /// The lanes in which any number jumps between both sides of an event; `beside` are numbers that set the scale.
 #[inline(always)]
 fn jump<T: Several>(ahead: &[T], behind: &[T], beside: &[T]) -> T::Mask {
-    let [trifle, nothing, most] = [TRIFLE, NOTHING, MOST].map(T::Part::from_f64);
+    let [trifle, nothing, most] = mapped([TRIFLE, NOTHING, MOST], T::Part::from_f64);
     let mut largest = T::Part::from_f64(0.0);
     let beside = match beside.is_empty() {
         true => behind,

@@ -62,3 +62,15 @@ pub use settings::{Fixed, Method, Pace, Settings};
 fn copies<S: Copy>(value: S, count: usize) -> Box<[S]> {
     vec![value; count].into_boxed_slice()
 }
+
+/// An array of such slices.
+fn arrays<S: Copy, const N: usize>(value: S, count: usize) -> [Box<[S]>; N]
+where
+    [Box<[S]>; N]: Default,
+{
+    let mut all = <[Box<[S]>; N]>::default();
+    for slice in &mut all {
+        *slice = copies(value, count);
+    }
+    all
+}

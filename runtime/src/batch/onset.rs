@@ -1,11 +1,11 @@
 //! Finds laws that begin and end to act within one step, in each lane, as [`crate::simulate`] does for a single run.
 
-use super::copies;
+use super::arrays;
 use super::onset_cache::OnsetCache;
 use super::place::Places;
 use super::run::{Run, Work, each, replace};
 use crate::real::lanes::MOST_LANES;
-use crate::real::{Mask, Several};
+use crate::real::{Mask, Several, mapped};
 use crate::simulate::onset::{
     Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
 };
@@ -43,20 +43,20 @@ impl<T: Several> Onsets<T> {
     /// The onsets of a model.
     pub fn new(info: &Info, adaptive: bool) -> Self {
         let count = info.onsets.len();
-        let zeros = |length: usize| copies(T::from_f64(0.0), length);
+        let nought = T::from_f64(0.0);
         let entries = match adaptive || count == 0 {
             true => 0,
             false => info.state_length(),
         };
         Onsets {
-            values: core::array::from_fn(|_| zeros(2 * count)),
+            values: arrays(nought, 2 * count),
             corners: info.corners,
             hunts: vec![None; if count > 0 { T::LANES } else { 0 }].into_boxed_slice(),
             looked: OnsetCache::new(count, info.corners),
             found: [0; MOST_LANES],
             on_cubic: false,
             missed: [None; MOST_LANES],
-            rates: core::array::from_fn(|_| zeros(entries)),
+            rates: arrays(nought, entries),
         }
     }
 
@@ -177,21 +177,21 @@ impl<T: Several> Run<'_, T> {
         let lanes = over.lanes();
         for i in each(lanes).take_while(|i| *i < T::LANES) {
             let side = self.onsets.found[i];
-            let gaps = [0, END].map(|place| self.onsets.gap_in(i, place, side));
+            let gaps = mapped([0, END], |place| self.onsets.gap_in(i, place, side));
             let corner = side >= self.onsets.count() - self.onsets.corners;
             visits[i] = Visit::new(found.lane(i).to_f64(), gaps, corner);
         }
         for k in 0..Visit::PLACES {
-            let theta = visits.map(|visit| T::One::from_f64(visit.place(k)));
+            let theta = mapped(visits, |visit| T::One::from_f64(visit.place(k)));
             self.onsets_within(T::of_lanes(&theta), ANY);
             for i in each(lanes).take_while(|i| *i < T::LANES) {
                 let gap = self.onsets.gap_in(i, ANY, self.onsets.found[i]);
                 visits[i].tell(k, gap);
             }
         }
-        self.rate_within(visits.map(|visit| visit.seen_from()[0]), 0);
-        self.rate_within(visits.map(|visit| visit.seen_from()[1]), 1);
-        self.rate_within(visits.map(|visit| visit.deepest()), 2);
+        self.rate_within(mapped(visits, |visit| visit.seen_from()[0]), 0);
+        self.rate_within(mapped(visits, |visit| visit.seen_from()[1]), 1);
+        self.rate_within(mapped(visits, |visit| visit.deepest()), 2);
         let from = self.info.coordinates.len();
         let velocities = from..from + self.info.velocities.len();
         for i in each(lanes).take_while(|i| *i < T::LANES) {
@@ -217,7 +217,7 @@ impl<T: Several> Run<'_, T> {
     #[inline(always)]
     fn rate_within(&mut self, parts: [f64; MOST_LANES], place: usize) {
         let model = &*self.models.all;
-        let theta = T::of_lanes(&parts.map(T::One::from_f64));
+        let theta = T::of_lanes(&mapped(parts, T::One::from_f64));
         match self.onsets.on_cubic {
             true => self.step.on_cubic(model, theta, None, &mut self.state),
             false => self.step.inside(model, theta, &mut self.state),
@@ -369,7 +369,7 @@ impl<T: Several> Run<'_, T> {
     fn onsets_at(&mut self, places: &mut Places<f64>) {
         let order = self.pack(places);
         let step = &self.step;
-        let theta = T::of_lanes(&places.wanted().map(T::One::from_f64));
+        let theta = T::of_lanes(&mapped(*places.wanted(), T::One::from_f64));
         let model = &*self.models.packed;
         match self.onsets.on_cubic {
             true => step.on_cubic(model, theta, Some(order), &mut self.state),

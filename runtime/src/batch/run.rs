@@ -17,7 +17,6 @@
 
 use super::bend::Bends;
 use super::control::{ESTIMATE, Power, first_step};
-use super::copies;
 use super::event::Values;
 use super::jump::Sided;
 use super::models::Models;
@@ -29,6 +28,7 @@ use super::settings::{Pace, Settings};
 use super::step::Step;
 use super::tolerance::Allowed;
 use super::watch::Watch;
+use super::{arrays, copies};
 use crate::integrate::acceleration::Accelerations;
 use crate::integrate::control::Controller;
 use crate::model::CurveKind;
@@ -321,7 +321,7 @@ impl<'a, T: Several> Run<'a, T> {
             ),
             tied: 0,
             controlled: 0,
-            powers: [(); 2].map(|()| zeros(info.powers.len())),
+            powers: arrays(nought, info.powers.len()),
             h: one,
             level: one,
             grid: Grid::new(),

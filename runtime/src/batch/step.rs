@@ -6,9 +6,9 @@
 //!
 //! Stages and sums are separate functions, each compiled for the coefficients of one method.
 
-use super::copies;
 use super::settings::Method;
 use super::tolerance::Allowed;
+use super::{arrays, copies};
 use crate::integrate::acceleration::{EndDifference, kind};
 use crate::integrate::tableau::dormand_prince::Dopri5;
 use crate::integrate::tableau::kutta::{Heun, Merson, Rk4};
@@ -78,7 +78,7 @@ impl<T: Several> Step<T> {
             h: nought,
             latest: nought,
             y: zeros(),
-            k: core::array::from_fn(|_| zeros()),
+            k: arrays(nought, entries),
             end: zeros(),
             spare: zeros(),
             complete: false,
@@ -295,12 +295,12 @@ impl<T: Several> Step<T> {
             for j in 0..STAGES - 2 {
                 state = lengths[j].mul_add(k[j][i], state);
             }
-            let between = [end[i] - state, last[i] - near[i]].map(|value| value.part(0));
+            let between = [(end[i] - state).part(0), (last[i] - near[i]).part(0)];
             let y = end[i].part(0);
             if i < coordinates {
                 difference.coordinate(y, between);
             } else {
-                let ends = [first[i], last[i]].map(|value| value.part(0));
+                let ends = [first[i].part(0), last[i].part(0)];
                 difference.velocity(kind(info, i), y, between, ends);
             }
         }
@@ -447,8 +447,8 @@ impl<T: Several, B: Tableau> Task for Cubic<'_, T, B> {
         let k = stages(&step.k, to.len());
         let (y, end) = (&step.y[..to.len()], &step.end[..to.len()]);
         for i in 0..to.len() {
-            let [y, end] = [y[i], end[i]].map(|value| in_order(value, order));
-            let [first, last] = [k[0][i], k[last][i]].map(|value| in_order(value, order));
+            let [y, end] = [in_order(y[i], order), in_order(end[i], order)];
+            let [first, last] = [in_order(k[0][i], order), in_order(k[last][i], order)];
             let moved = whole.mul_add(end - y, y);
             to[i] = at_last.mul_add(last, at_first.mul_add(first, moved));
         }

@@ -2,12 +2,12 @@
 //! stability, as in the watch of a single run ([`crate::simulate`]). Steps under error control are not watched, and
 //! cost nothing here: they have that control, and the estimate of their error.
 
-use super::copies;
 use super::run::{Run, Work, each, replace};
 use super::settings::{Fixed, Method, Pace};
 use super::step::Step;
+use super::{arrays, copies};
 use crate::real::lanes::MOST_LANES;
-use crate::real::{Mask, Several};
+use crate::real::{Mask, Several, mapped};
 use crate::simulate::balance::{NODES, Rule, exchange};
 use crate::simulate::watch::account::{
     Account, Energies, Entry, Stability, Unstable, rate_squared,
@@ -74,7 +74,7 @@ impl<T: Several> Watch<T> {
             halved: Step::new(method, entries),
             charts: info.memory.iter().any(|name| name.ends_with(": chart")),
             known: T::Mask::of_lanes(0),
-            powers: core::array::from_fn(|_| zeros(info.powers.len())),
+            powers: arrays(T::from_f64(0.0), info.powers.len()),
             external_wrenches: [[T::from_f64(0.0); 6]; NODES + 1],
             near: zeros(entries),
             near_rate: zeros(entries),
@@ -231,7 +231,10 @@ impl<T: Several> Run<'_, T> {
             energies
         };
         let free = info.free.then(|| {
-            let of_one = [StateKind::Velocity, StateKind::AngularVelocity].map(&mut moving);
+            let of_one = [
+                moving(StateKind::Velocity),
+                moving(StateKind::AngularVelocity),
+            ];
             (of_one, model.momentum(t, y))
         });
         let limit = self.settings.energy_limit;
@@ -255,7 +258,7 @@ impl<T: Several> Run<'_, T> {
             *account = Account::new(limit);
             account.open(kinetic, 0.0);
             if let Some((of_one, momentum)) = free {
-                let of_one = of_one.map(|[slow, fast]| (of(fast) - of(slow)).max(0.0));
+                let of_one = mapped(of_one, |[slow, fast]| (of(fast) - of(slow)).max(0.0));
                 account.weigh_at_start(info.dimension, of_one);
                 for (sums, start) in watch.momentum.iter_mut().zip(momentum) {
                     (sums[0][lane], sums[1][lane], sums[2][lane]) = (of(start), 0.0, 0.0);
@@ -413,7 +416,7 @@ impl<T: Several> Run<'_, T> {
         let distance = places.map(|i| place(i) * place(i)).sum();
         let (mut missing, mut size) = ([0.0_f64; 2], 0.0_f64);
         for (i, (sums, end)) in watch.momentum.iter().zip(momentum).enumerate() {
-            let [start, given, exchanged] = [0, 1, 2].map(|k| sums[k][lane]);
+            let [start, given, exchanged] = [sums[0][lane], sums[1][lane], sums[2][lane]];
             let end = end.lane(lane).to_f64();
             missing[i / 3] = missing[i / 3].max((end - start - given).abs());
             size = size.max(start.abs()).max(end.abs()).max(exchanged);

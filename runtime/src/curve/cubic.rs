@@ -10,6 +10,7 @@ use super::integral::Integrable;
 use super::stop::{Searched, stop};
 use super::{Extrapolate, candidates, guard, kink};
 use crate::real::Real;
+use crate::real::mapped;
 
 /// A piecewise cubic function through `N` points, continuous together with its slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -262,7 +263,7 @@ impl Cubics<'_> {
             let ([x_k, y_k], [x_next, y_next]) = (self.points[k], self.points[k + 1]);
             if y_next > y_k {
                 let [m, c2, c3] = self.coefficients[k];
-                let piece = [x_k, y_k, m, c2, c3, x_next - x_k].map(c::<T>);
+                let piece = mapped([x_k, y_k, m, c2, c3, x_next - x_k], c::<T>);
                 for (old, new) in chosen.iter_mut().zip(piece) {
                     let kept = T::select(y.lt(c(y_k)), *old, new);
                     *old = T::select(c::<T>(y_next).lt(y), *old, kept);

@@ -162,7 +162,8 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
         };
         let Span { h, y, end, .. } = &self.span;
         let [step, at_first, at_last] = hermite(T::from_f64(theta));
-        let [at_first, at_last] = [at_first, at_last].map(|weight| weight * T::from_f64(*h));
+        let h = T::from_f64(*h);
+        let [at_first, at_last] = [at_first * h, at_last * h];
         for (i, state) in inside.iter_mut().enumerate() {
             let moved = step.mul_add(end[i] - y[i], y[i]);
             *state = at_last.mul_add(last[i], at_first.mul_add(self.k[i], moved));

@@ -11,7 +11,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Alone, Avx2, Avx512, Instructions};
-use super::{Base, Form, Mask, Real, Task};
+use super::{Base, Form, Mask, Real, Task, by_index, mapped};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A truth value for each lane: its word has all bits set, or none, so that a choice is an operation on bits, for all
@@ -22,9 +22,7 @@ pub struct Words<const N: usize>([u64; N]);
 impl<const N: usize> Words<N> {
     #[inline(always)]
     fn of(truth: impl Fn(usize) -> bool) -> Self {
-        Words(core::array::from_fn(|lane| {
-            0u64.wrapping_sub(u64::from(truth(lane)))
-        }))
+        Words(by_index(|lane| 0u64.wrapping_sub(u64::from(truth(lane)))))
     }
 }
 
@@ -41,17 +39,17 @@ impl<const N: usize> Mask for Words<N> {
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        Words(core::array::from_fn(|i| self.0[i] & other.0[i]))
+        Words(by_index(|i| self.0[i] & other.0[i]))
     }
 
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        Words(core::array::from_fn(|i| self.0[i] | other.0[i]))
+        Words(by_index(|i| self.0[i] | other.0[i]))
     }
 
     #[inline(always)]
     fn not(self) -> Self {
-        Words(self.0.map(|lane| !lane))
+        Words(mapped(self.0, |lane| !lane))
     }
 
     #[inline(always)]
@@ -73,12 +71,12 @@ fn each<const N: usize, const A: usize, R: Copy>(
     lanes: [[f64; N]; A],
     function: impl Fn([f64; A]) -> R,
 ) -> [R; N] {
-    let of = |lane: usize| lanes.map(|argument| argument[lane]);
-    let first = of(0).map(f64::to_bits);
-    if (1..N).all(|lane| of(lane).map(f64::to_bits) == first) {
+    let of = |lane: usize| mapped(lanes, |argument| argument[lane]);
+    let first = mapped(of(0), f64::to_bits);
+    if (1..N).all(|lane| mapped(of(lane), f64::to_bits) == first) {
         return [function(of(0)); N];
     }
-    core::array::from_fn(|lane| function(of(lane)))
+    by_index(|lane| function(of(lane)))
 }
 
 /// An operator of each lane.
@@ -88,7 +86,7 @@ macro_rules! operator {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                $name(core::array::from_fn(|i| self.0[i].$method(other.0[i])))
+                $name(by_index(|i| self.0[i].$method(other.0[i])))
             }
         }
     };
@@ -111,7 +109,7 @@ macro_rules! array {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
-                $name(self.0.map(|lane| -lane))
+                $name(mapped(self.0, |lane: f64| -lane))
             }
         }
 
@@ -159,7 +157,7 @@ macro_rules! array {
 
             #[inline(always)]
             fn of_words(stride: usize, words: &[f64]) -> Self {
-                $name(core::array::from_fn(|lane| words[lane * stride]))
+                $name(by_index(|lane| words[lane * stride]))
             }
 
             #[inline(always)]
@@ -175,18 +173,18 @@ macro_rules! array {
 
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
-                $name(core::array::from_fn(|i| Real::mul_add(self.0[i], a.0[i], b.0[i])))
+                $name(by_index(|i| Real::mul_add(self.0[i], a.0[i], b.0[i])))
             }
 
             #[inline(always)]
             fn sqrt(self) -> Self {
-                $name(self.0.map(Real::sqrt))
+                $name(mapped(self.0, Real::sqrt))
             }
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 let both = each([self.0], |[x]| Real::sin_cos(x));
-                ($name(both.map(|both| both.0)), $name(both.map(|both| both.1)))
+                ($name(mapped(both, |both| both.0)), $name(mapped(both, |both| both.1)))
             }
 
             #[inline(always)]
@@ -211,7 +209,7 @@ macro_rules! array {
 
             #[inline(always)]
             fn abs(self) -> Self {
-                $name(self.0.map(f64::abs))
+                $name(mapped(self.0, f64::abs))
             }
 
             #[inline(always)]
@@ -225,7 +223,7 @@ macro_rules! array {
                     let (then, otherwise) = (then.0[lane].to_bits(), otherwise.0[lane].to_bits());
                     f64::from_bits(then & mask.0[lane] | otherwise & !mask.0[lane])
                 };
-                $name(core::array::from_fn(chosen))
+                $name(by_index(chosen))
             }
 
             #[inline(always)]

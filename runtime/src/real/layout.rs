@@ -23,23 +23,27 @@ impl Layout {
     ///
     /// Every operation of these scalars, except the elementary functions, is an operation of IEEE 754 in each lane.
     pub fn of<T: Real>() -> Option<Layout> {
+        Layout::of_type(TypeId::of::<T>())
+    }
+
+    /// [`Layout::of`], compiled once for all scalars.
+    fn of_type(scalar: TypeId) -> Option<Layout> {
         let numbers = |lanes, single| Layout {
             lanes,
             single,
             fused: false,
             slopes: false,
         };
-        (numbers(1, false).if_over::<T, f64>())
-            .or_else(|| numbers(1, true).if_over::<T, f32>())
-            .or_else(|| numbers(2, false).if_over::<T, Array2>())
-            .or_else(|| numbers(4, false).if_over::<T, Array4>())
-            .or_else(|| numbers(8, false).if_over::<T, Array8>())
-            .or_else(super::lanes::layout::<T>)
+        (numbers(1, false).if_over::<f64>(scalar))
+            .or_else(|| numbers(1, true).if_over::<f32>(scalar))
+            .or_else(|| numbers(2, false).if_over::<Array2>(scalar))
+            .or_else(|| numbers(4, false).if_over::<Array4>(scalar))
+            .or_else(|| numbers(8, false).if_over::<Array8>(scalar))
+            .or_else(|| super::lanes::layout(scalar))
     }
 
-    /// This layout if the scalar `T` is `N`; the one with slopes if `T` is a dual number over `N`.
-    pub(super) fn if_over<T: Real, N: Real>(self) -> Option<Layout> {
-        let scalar = TypeId::of::<T>();
+    /// This layout if the scalar is `N`; the one with slopes if it is a dual number over `N`.
+    pub(super) fn if_over<N: Real>(self, scalar: TypeId) -> Option<Layout> {
         let slopes = scalar == TypeId::of::<Dual<N>>();
         (slopes || scalar == TypeId::of::<N>()).then_some(Layout { slopes, ..self })
     }

@@ -6,6 +6,7 @@
 //! duration, and a quotient of two linear functions has no maximum inside. The largest ratio is at the value of a sample,
 //! or at a corner of the limit.
 
+use crate::real::mapped;
 use crate::{Mask, Real};
 
 /// The largest number of corners of a limit.
@@ -92,9 +93,7 @@ pub(super) fn worst<T: Real>(
         ratio: num(0.0),
         duration: num(0.0),
     };
-    let corners = limit
-        .corners
-        .map(|[duration, _]| (duration, level(duration)));
+    let corners = mapped(limit.corners, |[duration, _]| (duration, level(duration)));
     let mut take = |level: T| {
         let duration = time_over(level, points.clone());
         let ratio = level / limit.at(duration * num(1.0 - HAIR));

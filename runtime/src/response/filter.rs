@@ -17,6 +17,7 @@
 //! the continuation. Each pass starts from the mean of its first ten samples.
 
 use crate::Real;
+use crate::real::mapped;
 use core::f64::consts::{PI, SQRT_2};
 use core::fmt;
 
@@ -164,7 +165,7 @@ pub fn filtered<T: Real>(
         return None;
     }
     let more = ((0.01 / interval).round() as usize).max(100).min(count - 1);
-    let coefficients = coefficients(class, standard, interval).map(T::from_f64);
+    let coefficients = mapped(coefficients(class, standard, interval), T::from_f64);
     let mut values = continued(samples, more);
     pass(&mut values, coefficients);
     values.reverse();

@@ -9,6 +9,7 @@
 
 use super::{Response, STANDARD_GRAVITY, exceedance, extremes, reduce};
 use crate::Real;
+use crate::real::mapped;
 
 /// A jump of a signal: its time and both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -118,7 +119,7 @@ pub fn move_with_jumps<T: Real>(
     let place = |jump: &Jump<T>| (jump.t.to_f64() / every) as usize;
     for together in jumps.chunk_by(|a, b| place(a) == place(b)) {
         let first = place(&together[0]);
-        let [from, to] = [first, first + 1].map(|i| T::from_f64(i as f64 * every));
+        let [from, to] = mapped([first, first + 1], |i| T::from_f64(i as f64 * every));
         let (mut t, mut x) = (from, samples[first]);
         let mut area = T::from_f64(0.0);
         for jump in together {
@@ -151,7 +152,7 @@ fn knots<T: Real>(samples: &[T], jumps: &[Jump<T>], every: f64) -> Vec<Knot<T>> 
                 before,
                 after,
             } = *jump;
-            knots.extend([before, after].map(|x| Knot { t: at, x }));
+            knots.extend([Knot { t: at, x: before }, Knot { t: at, x: after }]);
             taken |= at.to_f64() > t - hair;
         }
         if !taken {

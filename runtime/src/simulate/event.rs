@@ -7,7 +7,7 @@
 
 use super::excursion::Excursion;
 use crate::integrate::Stepper;
-use crate::real::{Mask, Number};
+use crate::real::{Mask, Number, mapped};
 use crate::{Dynamics, Real};
 
 /// Limit of iterations; bisection alone needs 44 for a width of 10⁻¹³.
@@ -97,7 +97,7 @@ impl<T: Real> Within<'_, T> {
                 k => opposite(zero, before, self.values[(k - 1) * count + i]),
             };
             let at_place = |k| at_place(k).to_f64();
-            let mut search = Excursion::new([0, 1, 2, 3, 4].map(at_place));
+            let mut search = Excursion::new(mapped([0, 1, 2, 3, 4], at_place));
             while let Some(theta) = search.next() {
                 let value = self.at(theta, PLACES - 1)[i];
                 search.tell(opposite(zero, before, value).to_f64());
@@ -130,7 +130,7 @@ impl<T: Real> Within<'_, T> {
             0 => opposite(zero, before, before),
             k => opposite(zero, before, self.values[(k - 1) * count + i]),
         };
-        let course = Course([0, 1, 2, 3, 4].map(|k| at_place(k).to_f64()));
+        let course = Course(mapped([0, 1, 2, 3, 4], |k| at_place(k).to_f64()));
         for k in 1..4 {
             let theta = 0.25 * k as f64;
             if course.matters(course.0[k]) {

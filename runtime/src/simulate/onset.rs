@@ -47,7 +47,7 @@
 
 use super::excursion::overshoot;
 use crate::Real;
-use crate::real::{Mask, Number};
+use crate::real::{Mask, Number, mapped};
 
 /// A visit of a law that acts at an end of a step is searched for if it gets this many times deeper within the step.
 const DEEPER: f64 = 4.0;
@@ -184,7 +184,7 @@ pub(crate) fn calm<T: Real>(
 fn limits(ends: [f64; 2], finest: f64) -> [Option<(f64, bool)>; 2] {
     let touch = (-finest, true);
     let deep = (limit(ends, finest), false);
-    match ends.map(|gap| gap > 0.0) {
+    match mapped(ends, |gap| gap > 0.0) {
         [true, true] => [Some(touch), None],
         [true, false] => [Some(deep), Some(touch)],
         [false, _] => [Some(deep), None],
@@ -396,12 +396,12 @@ impl Hunt {
             let speed = MARGIN * speed;
             let length = self.length / QUARTERS as f64;
             while self.search.is_none() && self.quarter < QUARTERS {
-                let ends = [self.quarter, self.quarter + 1].map(|k| Place {
+                let ends = mapped([self.quarter, self.quarter + 1], |k| Place {
                     theta: k as f64 / QUARTERS as f64,
                     gap: gaps[k],
                 });
                 self.quarter += 1;
-                if !excluded(ends.map(|end| end.gap), speed, length, limit) {
+                if !excluded(mapped(ends, |end| end.gap), speed, length, limit) {
                     self.search = Some(Search::new(self.length, ends, speed, limit, first));
                 }
             }
@@ -424,7 +424,7 @@ impl Hunt {
         let search = self.search.as_ref()?;
         if (NEAREST..NEAREST + QUARTERS).contains(&k) {
             let quarter = (self.quarter + k - NEAREST) % QUARTERS;
-            let [a, b] = [quarter, quarter + 1].map(|k| k as f64 / QUARTERS as f64);
+            let [a, b] = mapped([quarter, quarter + 1], |k| k as f64 / QUARTERS as f64);
             return Some(0.5 * (a + b));
         }
         let about = if k < NEAREST { k } else { k - QUARTERS };

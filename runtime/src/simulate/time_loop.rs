@@ -35,6 +35,7 @@ use crate::integrate::acceleration::{
 use crate::integrate::control::{Allowed, Basic, Controller, Tolerances, first_step};
 use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper, first_non_finite};
+use crate::real::mapped;
 use crate::{Dynamics, Info, Real, Section};
 use count::Vote;
 use onset::{END, KEPT, Onsets};
@@ -298,7 +299,10 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             fastness: 0.0,
             retries: 0,
             settles: 0,
-            powers: [(); 2].map(|()| workspace.part(info.powers.len())),
+            powers: [
+                workspace.part(info.powers.len()),
+                workspace.part(info.powers.len()),
+            ],
             h: 0.0,
             controller: Controller::new(0),
             grid: None,
@@ -689,12 +693,12 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let size = |value: T| value.abs().to_f64();
         let mut difference = EndDifference::new();
         for i in 0..coordinates + self.info.velocities.len() {
-            let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
+            let between = [size(span.end[i] - self.inside[i]), size(last[i] - near[i])];
             let y = size(span.end[i]);
             match i < coordinates {
                 true => difference.coordinate(y, between),
                 false => {
-                    let ends = [self.rate[i], last[i]].map(size);
+                    let ends = [size(self.rate[i]), size(last[i])];
                     difference.velocity(kind(self.info, i), y, between, ends);
                 }
             }
@@ -706,7 +710,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         for i in 0..self.info.varying_length() {
             let group = usize::from(i >= coordinates)
                 + usize::from(i >= coordinates + self.info.velocities.len());
-            let between = [span.end[i] - self.inside[i], last[i] - near[i]].map(size);
+            let between = [size(span.end[i] - self.inside[i]), size(last[i] - near[i])];
             fastest.add(group, size(span.end[i]), between, epsilon);
         }
         self.fastness = fastest.reach(span.h);
@@ -718,7 +722,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             let t = T::from_f64(self.f.time(span.t));
             let [one, other] = &mut self.powers;
             let found = effect_accelerations(self.model, t, span.y, self.inside, [one, other]);
-            self.accelerations.learn(true, found.map(T::to_f64));
+            self.accelerations.learn(true, mapped(found, T::to_f64));
             error = self.accelerations.error::<Basic>(&difference, of, epsilon);
         }
         self.accelerations
@@ -776,7 +780,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             let y = &*step.span().y;
             let at = T::from_f64(self.f.time(t));
             let found = effect_accelerations(self.model, at, y, self.inside, [one, other]);
-            self.accelerations.learn(true, found.map(T::to_f64));
+            self.accelerations.learn(true, mapped(found, T::to_f64));
             error = share(&self.accelerations);
         }
         error

@@ -53,6 +53,7 @@ use crate::integrate::workspace::Workspace;
 use crate::integrate::{Evaluator, Stepper};
 use crate::leap::Turning;
 use crate::model::{CurveInfo, CurveKind};
+use crate::real::mapped;
 use crate::{Dynamics, Formula, Info, Real, Section, StateKind};
 use account::{Account, Energies, Entry, Stability, rate_squared};
 use error::{Errors, Estimated, over_halves};
@@ -388,8 +389,10 @@ impl<'a, T: Real> Watch<'a, T> {
             let momentum = &mut self.balance.momentum;
             momentum.start = model.momentum(start, y);
             momentum.end = momentum.start;
-            let of_one = [StateKind::Velocity, StateKind::AngularVelocity]
-                .map(|wanted| moving(&|kind| if kind == wanted { 1.0 } else { 0.0 }));
+            let both = [StateKind::Velocity, StateKind::AngularVelocity];
+            let of_one = mapped(both, |wanted| {
+                moving(&|kind| if kind == wanted { 1.0 } else { 0.0 })
+            });
             self.account.weigh_at_start(info.dimension, of_one);
         }
         self.begin(model, settings.start, y);
@@ -478,7 +481,7 @@ impl<'a, T: Real> Watch<'a, T> {
         if let Some(history) = &mut self.history {
             history.note(span.t + length, &self.balance.works);
         }
-        [kinetic, self.balance.exchanged - before].map(T::to_f64)
+        [kinetic.to_f64(), (self.balance.exchanged - before).to_f64()]
     }
 
     /// Continues the error estimate over a step of this length, which ended at `y`. It overwrites the step. `state` is
@@ -625,7 +628,10 @@ impl<'a, T: Real> Watch<'a, T> {
         let mut suspected = false;
         for (i, curve) in info.curves.iter().enumerate() {
             if let Some(count) = curve.turning(info.dimension) {
-                let ends = [&self.farthest, &self.arguments].map(|of| entries(of, i, count));
+                let ends = [
+                    entries(&self.farthest, i, count),
+                    entries(&self.arguments, i, count),
+                ];
                 suspected |= match curve.kind {
                     // A joint may pass its singular position and come back within one step. If it is far from this
                     // position at both ends, this is possible in a fixed step only: otherwise the error would be too
@@ -649,7 +655,9 @@ impl<'a, T: Real> Watch<'a, T> {
         let (now, middle) = rest.split_at_mut(info.curves.len());
         before.copy_from_slice(&self.farthest);
         for piece in 1..=CurveInfo::PIECES {
-            let places = [piece - 1, piece].map(|k| f64::from(k) / f64::from(CurveInfo::PIECES));
+            let places = mapped([piece - 1, piece], |k| {
+                f64::from(k) / f64::from(CurveInfo::PIECES)
+            });
             match piece < CurveInfo::PIECES {
                 true => look(places[1], now),
                 false => now.copy_from_slice(&self.arguments),
@@ -658,7 +666,10 @@ impl<'a, T: Real> Watch<'a, T> {
                 let Some(count) = curve.turning(info.dimension) else {
                     continue;
                 };
-                let ends = [&self.farthest, &self.arguments].map(|of| entries(of, i, count));
+                let ends = [
+                    entries(&self.farthest, i, count),
+                    entries(&self.arguments, i, count),
+                ];
                 if curve.kind != CurveKind::Bearing && !curve.may_leap(ends) {
                     continue;
                 }
@@ -694,8 +705,8 @@ impl<'a, T: Real> Watch<'a, T> {
         let epsilon = epsilon_of::<T>();
         let entry = |i: usize| Entry {
             before: span.y[i].to_f64(),
-            end: [y[i], rate[i]].map(T::to_f64),
-            near: [near[i], near_rate[i]].map(T::to_f64),
+            end: [y[i].to_f64(), rate[i].to_f64()],
+            near: [near[i].to_f64(), near_rate[i].to_f64()],
         };
         if let Some(found) = rate_squared(self.info, epsilon, entry) {
             self.stability.observe([span.t, span.h], found, limit);

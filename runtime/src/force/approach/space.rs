@@ -11,6 +11,7 @@
 //! overlap is deeper than the radii of curvature. The search still finds the smallest φ next to the start there.
 
 use super::{Ending, LONGEST, STEPS, at_end, unless_far};
+use crate::real::by_index;
 use crate::{Mask, Real, Task};
 
 /// \[n_x, n_y, n_z, φ, p_x, p_y, p_z\] of two ellipsoids.
@@ -246,8 +247,7 @@ fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 3]) -> [T; 3] {
         one / both[0].product(line).sqrt(),
         one / both[1].product(line).sqrt(),
     ];
-    let [xx, yy, zz, yz, xz, xy] =
-        core::array::from_fn(|k| bend[0] * both[0].0[k] + bend[1] * both[1].0[k]);
+    let [xx, yy, zz, yz, xz, xy] = by_index(|k| bend[0] * both[0].0[k] + bend[1] * both[1].0[k]);
     let adjugate = Quadric([
         yy * zz - yz * yz,
         xx * zz - xz * xz,

@@ -3,6 +3,7 @@
 
 use super::Tableau;
 use crate::Real;
+use crate::real::{by_index, mapped};
 
 /// The pair of orders 5 and 4; the last stage of a step is the first of the next:
 ///
@@ -411,13 +412,13 @@ impl Tableau for Dop853 {
     fn weights<T: Real>(theta: T) -> [T; 16] {
         let c = T::from_f64;
         let rest = c(1.0) - theta;
-        core::array::from_fn(|i| {
+        by_index(|i| {
             // y = y₀ + θ(Δ + (1−θ)(c₃ + θ(c₄ + (1−θ)(c₅ + θ(c₆ + (1−θ)(c₇ + θ c₈)))))) with Δ = h Σ b k, c₃ = h k₁ − Δ,
             // c₄ = 2Δ − h k₁ − h k₁₃, and c₅ … c₈ = h Σ d k
             let b = Self::B.get(i).copied().unwrap_or(0.0);
             let first = if i == 0 { 1.0 } else { 0.0 };
             let last = if i == 12 { 1.0 } else { 0.0 };
-            let [d5, d6, d7, d8] = D.map(|d| c(d[i]));
+            let [d5, d6, d7, d8] = mapped(D, |d| c(d[i]));
             let quartic =
                 c(2.0 * b - first - last) + rest * (d5 + theta * (d6 + rest * (d7 + theta * d8)));
             theta * (c(b) + rest * (c(first - b) + theta * quartic))

@@ -44,6 +44,8 @@ pub use several::Several;
 #[cfg(feature = "std")]
 use super::Layout;
 use super::{Form, Mask, Real, Task};
+#[cfg(feature = "std")]
+use core::any::TypeId;
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A number in each lane of a register.
@@ -207,27 +209,27 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
 
 /// The layout of a scalar that is a register of any width, or a dual number over one; `None` for any other scalar.
 #[cfg(feature = "std")]
-pub(super) fn layout<T: Real>() -> Option<Layout> {
-    fn is<T: Real, R: Register>(fused: bool) -> Option<Layout> {
+pub(super) fn layout(scalar: TypeId) -> Option<Layout> {
+    fn is<R: Register>(scalar: TypeId, fused: bool) -> Option<Layout> {
         let layout = Layout {
             lanes: R::LANES,
             single: size_of::<R::One>() == size_of::<f32>(),
             fused,
             slopes: false,
         };
-        layout.if_over::<T, Lanes<R>>()
+        layout.if_over::<Lanes<R>>(scalar)
     }
-    let alone = is::<T, Alone<f64, false>>(false)
-        .or(is::<T, Alone<f64, true>>(true))
-        .or(is::<T, Alone<f32, false>>(false))
-        .or(is::<T, Alone<f32, true>>(true));
+    let alone = is::<Alone<f64, false>>(scalar, false)
+        .or(is::<Alone<f64, true>>(scalar, true))
+        .or(is::<Alone<f32, false>>(scalar, false))
+        .or(is::<Alone<f32, true>>(scalar, true));
     #[cfg(target_arch = "x86_64")]
-    let wide = is::<T, Avx2>(true)
-        .or(is::<T, Avx2Singles>(true))
-        .or(is::<T, Avx512>(true))
-        .or(is::<T, Avx512Singles>(true));
+    let wide = is::<Avx2>(scalar, true)
+        .or(is::<Avx2Singles>(scalar, true))
+        .or(is::<Avx512>(scalar, true))
+        .or(is::<Avx512Singles>(scalar, true));
     #[cfg(target_arch = "aarch64")]
-    let wide = is::<T, Neon>(true).or(is::<T, NeonSingles>(true));
+    let wide = is::<Neon>(scalar, true).or(is::<NeonSingles>(scalar, true));
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     let wide = None;
     alone.or(wide)

@@ -2,7 +2,7 @@
 
 use super::{Lanes, MOST_LANES, Register};
 use crate::Dual;
-use crate::real::Real;
+use crate::real::{Real, by_index, mapped};
 
 /// A scalar that holds several scenarios side by side.
 pub trait Several: Real {
@@ -116,7 +116,7 @@ impl<T: Several> Several for Dual<T> {
     #[inline(always)]
     fn lanes(self) -> [Dual<T::One>; MOST_LANES] {
         let (values, slopes) = (self.value.lanes(), self.slope.lanes());
-        core::array::from_fn(|i| Dual {
+        by_index(|i| Dual {
             value: values[i],
             slope: slopes[i],
         })
@@ -125,8 +125,8 @@ impl<T: Several> Several for Dual<T> {
     #[inline(always)]
     fn of_lanes(lanes: &[Dual<T::One>; MOST_LANES]) -> Self {
         Dual {
-            value: T::of_lanes(&lanes.map(|lane| lane.value)),
-            slope: T::of_lanes(&lanes.map(|lane| lane.slope)),
+            value: T::of_lanes(&mapped(*lanes, |lane| lane.value)),
+            slope: T::of_lanes(&mapped(*lanes, |lane| lane.slope)),
         }
     }
 

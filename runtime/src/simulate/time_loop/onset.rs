@@ -3,6 +3,7 @@
 use super::{TimeLoop, finest_of};
 use crate::integrate::Stepper;
 use crate::real::Mask;
+use crate::real::mapped;
 use crate::simulate::Pace;
 use crate::simulate::onset::{
     Course, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
@@ -92,9 +93,9 @@ impl<'w, T: Real> Onsets<'w, T> {
     }
 
     fn course(&self, side: usize) -> Course {
-        let speeds = IN_ORDER.map(|place| self.speed(place, side));
+        let speeds = mapped(IN_ORDER, |place| self.speed(place, side));
         Course {
-            gaps: IN_ORDER.map(|place| self.gap(place, side)),
+            gaps: mapped(IN_ORDER, |place| self.gap(place, side)),
             speed: speeds.into_iter().fold(0.0, f64::max),
         }
     }
@@ -113,11 +114,11 @@ impl<'w, T: Real> Onsets<'w, T> {
     /// True if the gap of `side` cannot have reached its limit within this step of the given `length`. Uses the gaps at
     /// both ends of the step and, if `past > 0`, at the start of the previous one, which is `past` long.
     fn quiet(&self, side: usize, past: f64, length: f64) -> bool {
-        let [before, a, b] = [PAST, 0, 1].map(|place| self.gap(place, side));
+        let [before, a, b] = mapped([PAST, 0, 1], |place| self.gap(place, side));
         let speed = self.speed(0, side).max(self.speed(1, side));
         let limit = self.limit(side);
         let [before, a, b, speed, length, limit] =
-            [before, a, b, speed, length, limit].map(T::from_f64);
+            mapped([before, a, b, speed, length, limit], T::from_f64);
         let lengths = [T::from_f64(past), length];
         far([a, b], speed, length, limit).all()
             || past > 0.0 && straight([before, a, b], speed, lengths, limit).all()
@@ -126,13 +127,13 @@ impl<'w, T: Real> Onsets<'w, T> {
     /// [`Onsets::quiet`] with the gap in the middle of the step known, too.
     fn calm(&self, side: usize, past: f64, length: f64) -> bool {
         let places = [0, MIDDLE, 1];
-        let speed = places.map(|place| self.speed(place, side));
+        let speed = mapped(places, |place| self.speed(place, side));
         let speed = speed.into_iter().fold(0.0, f64::max);
-        let gaps = [PAST, 0, MIDDLE, 1].map(|place| self.gap(place, side));
+        let gaps = mapped([PAST, 0, MIDDLE, 1], |place| self.gap(place, side));
         let known = T::Mask::of_lanes(if past > 0.0 { u32::MAX } else { 0 });
-        let [speed, limit] = [speed, self.limit(side)].map(T::from_f64);
-        let lengths = [past, length].map(T::from_f64);
-        calm(gaps.map(T::from_f64), speed, lengths, known, limit).all()
+        let [speed, limit] = mapped([speed, self.limit(side)], T::from_f64);
+        let lengths = mapped([past, length], T::from_f64);
+        calm(mapped(gaps, T::from_f64), speed, lengths, known, limit).all()
     }
 }
 
@@ -212,7 +213,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
             }
         };
         let span = step.span();
-        let gaps = [0, 1].map(|place| self.onsets.gap(place, side));
+        let gaps = mapped([0, 1], |place| self.onsets.gap(place, side));
         let corner = side >= self.onsets.count - self.onsets.corners;
         let mut visit = Visit::new(part, gaps, corner);
         for k in 0..Visit::PLACES {
@@ -248,7 +249,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         let from = self.info.coordinates.len();
         let velocities = from..from + self.info.velocities.len();
         let unseen = velocities.map(|i| Unseen {
-            ends: [span.y[i], span.end[i]].map(T::to_f64),
+            ends: [span.y[i].to_f64(), span.end[i].to_f64()],
             begin: self.rate[i].to_f64(),
             seen: self.spare[i].to_f64(),
             rate: self.f.found_at[i].to_f64(),

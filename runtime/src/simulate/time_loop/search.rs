@@ -9,6 +9,7 @@
 use super::{TimeLoop, finest_of};
 use crate::Real;
 use crate::integrate::Stepper;
+use crate::real::mapped;
 use crate::simulate::Pace;
 use crate::simulate::event::{self, WIDTH, Which, Within};
 use crate::simulate::excursion::{heads_for, overshoot};
@@ -171,7 +172,7 @@ impl<T: Real> TimeLoop<'_, '_, T> {
         let event_functions = self.event_functions_past.iter().zip(&*self.event_functions);
         let mut event_functions = event_functions.zip(&*self.event_functions_ahead);
         let may_turn = event_functions.any(|((past, before), after)| {
-            let lengths = lengths.map(T::from_f64);
+            let lengths = mapped(lengths, T::from_f64);
             overshoot([*past, *before, *after], lengths).to_f64() > 0.0
                 || heads_for([*past, *before], lengths).to_f64() > 0.0
         });
