@@ -264,13 +264,15 @@ pub trait Task {
     fn run(self) -> Self::Output;
 }
 
-/// An array of what a function gives for each index, from the first to the last. It is a plain loop, which is compiled
-/// for each function; behind [`core::array::from_fn`] are ten functions more.
+/// An array of what a function gives for each index, from the first to the last; `blank` stands in each place before. It
+/// is a plain loop, which is compiled for each function; behind [`core::array::from_fn`] are ten functions more.
 #[inline(always)]
-pub(crate) fn by_index<R: Copy, const N: usize>(mut of: impl FnMut(usize) -> R) -> [R; N] {
-    const { assert!(N > 0) };
-    let mut all = [of(0); N];
-    let mut i = 1;
+pub(crate) fn by_index<R: Copy, const N: usize>(
+    blank: R,
+    mut of: impl FnMut(usize) -> R,
+) -> [R; N] {
+    let mut all = [blank; N];
+    let mut i = 0;
     while i < N {
         all[i] = of(i);
         i += 1;
@@ -278,13 +280,20 @@ pub(crate) fn by_index<R: Copy, const N: usize>(mut of: impl FnMut(usize) -> R) 
     all
 }
 
-/// An array of what a function gives for each entry, from the first to the last.
+/// An array of what a function gives for each entry, from the first to the last: a plain loop, as [`by_index`].
 #[inline(always)]
 pub(crate) fn mapped<A: Copy, R: Copy, const N: usize>(
     entries: [A; N],
     mut of: impl FnMut(A) -> R,
 ) -> [R; N] {
-    by_index(|i| of(entries[i]))
+    const { assert!(N > 0) };
+    let mut all = [of(entries[0]); N];
+    let mut i = 1;
+    while i < N {
+        all[i] = of(entries[i]);
+        i += 1;
+    }
+    all
 }
 
 /// Truth values, one per lane.

@@ -11,7 +11,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{Alone, Avx2, Avx512, Instructions};
-use super::{Base, Form, Mask, Real, Task, by_index, mapped};
+use super::{Base, Form, Mask, Real, Task, by_index};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// A truth value for each lane: its word has all bits set, or none, so that a choice is an operation on bits, for all
@@ -22,7 +22,9 @@ pub struct Words<const N: usize>([u64; N]);
 impl<const N: usize> Words<N> {
     #[inline(always)]
     fn of(truth: impl Fn(usize) -> bool) -> Self {
-        Words(by_index(|lane| 0u64.wrapping_sub(u64::from(truth(lane)))))
+        Words(by_index(0, |lane| {
+            0u64.wrapping_sub(u64::from(truth(lane)))
+        }))
     }
 }
 
@@ -39,17 +41,17 @@ impl<const N: usize> Mask for Words<N> {
 
     #[inline(always)]
     fn and(self, other: Self) -> Self {
-        Words(by_index(|i| self.0[i] & other.0[i]))
+        Words(by_index(0, |i| self.0[i] & other.0[i]))
     }
 
     #[inline(always)]
     fn or(self, other: Self) -> Self {
-        Words(by_index(|i| self.0[i] | other.0[i]))
+        Words(by_index(0, |i| self.0[i] | other.0[i]))
     }
 
     #[inline(always)]
     fn not(self) -> Self {
-        Words(mapped(self.0, |lane| !lane))
+        Words(by_index(0, |i| !self.0[i]))
     }
 
     #[inline(always)]
@@ -71,12 +73,17 @@ fn each<const N: usize, const A: usize, R: Copy>(
     lanes: [[f64; N]; A],
     function: impl Fn([f64; A]) -> R,
 ) -> [R; N] {
-    let of = |lane: usize| mapped(lanes, |argument| argument[lane]);
-    let first = mapped(of(0), f64::to_bits);
-    if (1..N).all(|lane| mapped(of(lane), f64::to_bits) == first) {
-        return [function(of(0)); N];
+    let of = |lane: usize| by_index(0.0, |i| lanes[i][lane]);
+    let bits = |lane: usize| by_index::<u64, A>(0, |i| lanes[i][lane].to_bits());
+    let first = bits(0);
+    let mut all = [function(of(0)); N];
+    if (1..N).all(|lane| bits(lane) == first) {
+        return all;
     }
-    by_index(|lane| function(of(lane)))
+    for lane in 1..N {
+        all[lane] = function(of(lane));
+    }
+    all
 }
 
 /// An operator of each lane.
@@ -86,7 +93,7 @@ macro_rules! operator {
             type Output = Self;
             #[inline(always)]
             fn $method(self, other: Self) -> Self {
-                $name(by_index(|i| self.0[i].$method(other.0[i])))
+                $name(by_index(0.0, |i| self.0[i].$method(other.0[i])))
             }
         }
     };
@@ -109,7 +116,7 @@ macro_rules! array {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
-                $name(mapped(self.0, |lane: f64| -lane))
+                $name(by_index(0.0, |i| -self.0[i]))
             }
         }
 
@@ -157,7 +164,7 @@ macro_rules! array {
 
             #[inline(always)]
             fn of_words(stride: usize, words: &[f64]) -> Self {
-                $name(by_index(|lane| words[lane * stride]))
+                $name(by_index(0.0, |lane| words[lane * stride]))
             }
 
             #[inline(always)]
@@ -173,18 +180,18 @@ macro_rules! array {
 
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
-                $name(by_index(|i| Real::mul_add(self.0[i], a.0[i], b.0[i])))
+                $name(by_index(0.0, |i| Real::mul_add(self.0[i], a.0[i], b.0[i])))
             }
 
             #[inline(always)]
             fn sqrt(self) -> Self {
-                $name(mapped(self.0, Real::sqrt))
+                $name(by_index(0.0, |i| Real::sqrt(self.0[i])))
             }
 
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 let both = each([self.0], |[x]| Real::sin_cos(x));
-                ($name(mapped(both, |both| both.0)), $name(mapped(both, |both| both.1)))
+                ($name(by_index(0.0, |i| both[i].0)), $name(by_index(0.0, |i| both[i].1)))
             }
 
             #[inline(always)]
@@ -209,7 +216,7 @@ macro_rules! array {
 
             #[inline(always)]
             fn abs(self) -> Self {
-                $name(mapped(self.0, f64::abs))
+                $name(by_index(0.0, |i| self.0[i].abs()))
             }
 
             #[inline(always)]
@@ -223,7 +230,7 @@ macro_rules! array {
                     let (then, otherwise) = (then.0[lane].to_bits(), otherwise.0[lane].to_bits());
                     f64::from_bits(then & mask.0[lane] | otherwise & !mask.0[lane])
                 };
-                $name(by_index(chosen))
+                $name(by_index(0.0, chosen))
             }
 
             #[inline(always)]

@@ -247,7 +247,9 @@ fn start<T: Real>(both: &[Quadric<T>; 2], line: [T; 3]) -> [T; 3] {
         one / both[0].product(line).sqrt(),
         one / both[1].product(line).sqrt(),
     ];
-    let [xx, yy, zz, yz, xz, xy] = by_index(|k| bend[0] * both[0].0[k] + bend[1] * both[1].0[k]);
+    let [xx, yy, zz, yz, xz, xy] = by_index(T::from_f64(0.0), |k| {
+        bend[0] * both[0].0[k] + bend[1] * both[1].0[k]
+    });
     let adjugate = Quadric([
         yy * zz - yz * yz,
         xx * zz - xz * xz,

@@ -412,7 +412,7 @@ impl Tableau for Dop853 {
     fn weights<T: Real>(theta: T) -> [T; 16] {
         let c = T::from_f64;
         let rest = c(1.0) - theta;
-        by_index(|i| {
+        by_index(c(0.0), |i| {
             // y = y₀ + θ(Δ + (1−θ)(c₃ + θ(c₄ + (1−θ)(c₅ + θ(c₆ + (1−θ)(c₇ + θ c₈)))))) with Δ = h Σ b k, c₃ = h k₁ − Δ,
             // c₄ = 2Δ − h k₁ − h k₁₃, and c₅ … c₈ = h Σ d k
             let b = Self::B.get(i).copied().unwrap_or(0.0);

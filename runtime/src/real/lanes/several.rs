@@ -116,10 +116,16 @@ impl<T: Several> Several for Dual<T> {
     #[inline(always)]
     fn lanes(self) -> [Dual<T::One>; MOST_LANES] {
         let (values, slopes) = (self.value.lanes(), self.slope.lanes());
-        by_index(|i| Dual {
-            value: values[i],
-            slope: slopes[i],
-        })
+        by_index(
+            Dual {
+                value: values[0],
+                slope: slopes[0],
+            },
+            |i| Dual {
+                value: values[i],
+                slope: slopes[i],
+            },
+        )
     }
 
     #[inline(always)]
