@@ -187,11 +187,6 @@ pub mod program;
 #[cfg(feature = "embedded-source")]
 pub mod source;
 
-#[cfg(test)]
-mod test_models;
-#[cfg(test)]
-mod test_scalars;
-
 pub use curve::{Curve, Extrapolate};
 pub use dynamics::{Adjustable, Differentiable, Direct, Dynamics, Owned, Schedule};
 #[cfg(feature = "std")]

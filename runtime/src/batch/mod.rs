@@ -47,8 +47,6 @@ mod scenario;
 mod search;
 mod settings;
 mod step;
-#[cfg(test)]
-mod tests;
 mod tolerance;
 mod watch;
 

@@ -10,6 +10,7 @@
 //! derivatives count Σ|bⱼ| = 23 times.
 
 use super::{Rate, march_dop853};
+use crate::real::by_index;
 use crate::{Change, Model, Real, Task, Vector};
 
 /// Number of derivatives in a step.
@@ -92,7 +93,7 @@ impl<T: Real, M: Model<T>> Task for MarchAdams<'_, T, M, M::State> {
             if (step as usize) < ORDER - 1 {
                 march_dop853(model, t, h, 1, y);
             } else {
-                let rates = core::array::from_fn(|j| &rates[(latest + ORDER - j) % ORDER]);
+                let rates = by_index(&rates[0], |j| &rates[(latest + ORDER - j) % ORDER]);
                 model.normalize_changed(y, &Sum { weights, rates });
             }
         }
@@ -121,9 +122,7 @@ impl<T: Real, S: Vector<T>> Change<T> for Sum<'_, T, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::DoubleDouble;
-    use crate::test_models::{Counter, Kepler, Pendulum, Spin};
+    use super::{ORDER, OVER, WEIGHTS};
 
     /// Σ bⱼ (−j)ᵐ = ∫₀¹ tᵐ dt for all degrees m up to five, in whole numbers. For degree six it is off by 19087/60480 · 6!.
     #[test]
@@ -137,73 +136,6 @@ mod tests {
                 _ => assert_eq!(sum * over, exact, "{degree}"),
             }
         }
-    }
-
-    /// The same steps, written as in the formula.
-    fn textbook<T: Real, M: Model<T>>(model: &M, h: f64, steps: u32, y: &mut M::State) {
-        let number = T::from_f64;
-        let mut rates = Vec::new();
-        for step in 0..steps {
-            let t = number(f64::from(step) * h);
-            rates.insert(0, model.derivative(t, y));
-            if rates.len() < ORDER {
-                march_dop853(model, t, number(h), 1, y);
-                continue;
-            }
-            for i in 0..M::State::LEN {
-                let terms = rates.iter().zip(WEIGHTS);
-                let terms = terms.map(|(f, b)| number(b) / number(OVER) * f[i]);
-                let sum = terms.fold(number(0.0), |sum, term| sum + term);
-                y[i] += number(h) * sum;
-            }
-            model.normalize(y);
-        }
-    }
-
-    fn compare<T: Real, M: Model<T>>(model: &M, epsilon: f64) {
-        let (h, steps) = (1.0 / 64.0, 120);
-        let (mut expected, mut found) = (model.initial_state(), model.initial_state());
-        textbook(model, h, steps, &mut expected);
-        let (start, step) = (T::from_f64(0.0), T::from_f64(h));
-        let end = march_adams(model, start, step, steps, &mut found);
-        assert_eq!(end.to_f64(), h * f64::from(steps));
-        // derivatives below 100 count 23 h in each step, with a rounding for each of six weights, and what they grow by in two seconds
-        let bound = 6.0 * epsilon * 100.0 * 23.0 * h * f64::from(steps) * 10.0;
-        for i in 0..M::State::LEN {
-            let difference = (found[i] - expected[i]).to_f64().abs();
-            let size = expected[i].to_f64().abs().max(1.0);
-            assert!(difference <= bound * size, "{i}: {difference:e}, {bound:e}");
-        }
-    }
-
-    #[test]
-    fn a_march_goes_where_the_formula_does() {
-        fn all<T: Real>(epsilon: f64) {
-            compare::<T, _>(&Pendulum, epsilon);
-            compare::<T, _>(&Kepler, epsilon);
-            compare::<T, _>(&Spin, epsilon);
-        }
-        all::<f64>(f64::EPSILON);
-        all::<DoubleDouble>(f64::EPSILON * f64::EPSILON);
-    }
-
-    /// Half the step divides the error by 2 to the order; a tenth of an order is left for higher terms.
-    #[test]
-    fn it_is_of_order_six() {
-        let end = |steps: u32| {
-            let mut y: [DoubleDouble; 4] = Kepler.initial_state();
-            let h = DoubleDouble::from_f64(2.0) / DoubleDouble::from_f64(f64::from(steps));
-            march_adams(&Kepler, DoubleDouble::from_f64(0.0), h, steps, &mut y);
-            y
-        };
-        let exact = end(16384);
-        let error = |steps| {
-            let y = end(steps);
-            let each = (0..4).map(|i| (y[i] - exact[i]).to_f64().abs());
-            each.fold(0.0, f64::max)
-        };
-        let order = (error(1024) / error(2048)).log2();
-        assert!((order - 6.0).abs() < 0.1, "{order}");
     }
 
     /// How far the numerical solution of y' = z y departs from the circle or the decay of the exact solution, after so many steps of length 1.
@@ -245,24 +177,5 @@ mod tests {
             let bound = 10.0 * swing * swing * told + f64::EPSILON;
             assert!((grown - told).abs() < bound, "{swing}: {grown:e} {told:e}");
         }
-    }
-
-    #[test]
-    fn few_steps_are_those_of_order_eight_and_none_changes_nothing() {
-        for steps in 0..ORDER as u32 {
-            let (mut y, mut expected) = ([0.5, 0.0, 0.0, 1.7], [0.5, 0.0, 0.0, 1.7]);
-            for step in 0..steps {
-                march_dop853(&Kepler, f64::from(step) * 0.1, 0.1, 1, &mut expected);
-            }
-            march_adams(&Kepler, 0.0, 0.1, steps, &mut y);
-            assert_eq!(y, expected);
-        }
-    }
-
-    #[test]
-    #[should_panic(expected = "without memory")]
-    fn a_model_with_memory_is_refused() {
-        let mut y = Model::<f64>::initial_state(&Counter);
-        march_adams(&Counter, 0.0, 0.1, 1, &mut y);
     }
 }

@@ -40,6 +40,8 @@ pub use adams::march_adams;
 use core::fmt;
 use euler::SemiImplicitEuler;
 use explicit::Explicit;
+#[doc(hidden)]
+pub use march::{Coefficients, DOP853};
 pub use march::{march, march_dop853};
 use rosenbrock::Rosenbrock;
 use switching::Switching;

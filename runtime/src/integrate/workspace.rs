@@ -28,7 +28,6 @@ impl<'w, T> Workspace<'w, T> {
     }
 
     /// The length that is left.
-    #[cfg(test)]
     pub fn left(&self) -> usize {
         self.rest.len()
     }

@@ -289,35 +289,3 @@ impl fmt::Display for JobError {
 }
 
 impl std::error::Error for JobError {}
-
-#[cfg(test)]
-mod tests {
-    use super::{JobError, parameters};
-    use crate::Model;
-    use crate::test_models::Oscillator;
-
-    #[test]
-    fn parameters_out_of_bounds_are_named_with_their_bounds() {
-        let check = |name: &str, value: f64| {
-            parameters(
-                <Oscillator as Model<f64>>::INFO,
-                &[(name.to_owned(), value)],
-            )
-            .map_err(|error| error.to_string())
-        };
-        assert!(check("stiffness", 100.0).is_ok());
-        for value in [-1.0, 100.5, f64::NAN, f64::INFINITY] {
-            let message = check("stiffness", value).unwrap_err();
-            assert!(message.contains("\"stiffness\""), "{message}");
-            assert!(message.ends_with("between 0 and 100 N/m"), "{message}");
-        }
-        assert!(
-            check("mass", 1.0)
-                .unwrap_err()
-                .ends_with("there is stiffness")
-        );
-        let twice = [("stiffness".to_owned(), 1.0), ("stiffness".to_owned(), 2.0)];
-        let error = parameters(<Oscillator as Model<f64>>::INFO, &twice).unwrap_err();
-        assert!(matches!(error, JobError::RepeatedParameter { .. }));
-    }
-}

@@ -31,8 +31,6 @@ mod integrals;
 #[cfg(feature = "std")]
 mod jumps;
 mod olc;
-#[cfg(test)]
-mod tests;
 mod value;
 
 pub use answer::Answer;

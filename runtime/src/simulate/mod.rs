@@ -24,14 +24,10 @@ mod driven;
 mod event;
 pub(crate) mod excursion;
 pub(crate) mod onset;
-#[cfg(test)]
-mod orders;
 mod run;
 mod schedule;
 mod settings;
 pub(crate) mod standing;
-#[cfg(test)]
-mod tests;
 mod time_loop;
 pub(crate) mod watch;
 

@@ -78,8 +78,9 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
             "the initial state is not as long as one of {}",
             info.name
         );
+        let length = workspace_length(info, settings);
         assert!(
-            workspace.len() >= workspace_length(info, settings),
+            workspace.len() >= length,
             "the workspace is too short for a run of {}: see workspace_length",
             info.name
         );
@@ -96,10 +97,13 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
                 culprit: Culprit::Unknown,
             }));
         }
-        let mut workspace = Workspace::new(workspace);
+        let mut workspace = Workspace::new(&mut workspace[..length]);
+        let time_loop = TimeLoop::new(model, initial, settings, watch, &mut workspace);
+        let step = AnyStepper::new(&settings.method, info, &mut workspace);
+        debug_assert_eq!(workspace.left(), 0, "of the workspace of {}", info.name);
         Ok(Run {
-            time_loop: TimeLoop::new(model, initial, settings, watch, &mut workspace),
-            step: AnyStepper::new(&settings.method, info, &mut workspace),
+            time_loop,
+            step,
             info,
             failed: None,
             duration: settings.duration,
@@ -203,6 +207,3 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -41,8 +41,6 @@
 
 pub(crate) mod account;
 pub(crate) mod error;
-#[cfg(test)]
-mod tests;
 
 use super::balance::{NODES, Rule, exchange};
 use super::event::inside;
@@ -528,6 +526,13 @@ impl<'a, T: Real> Watch<'a, T> {
             error: over * self.error[i].to_f64(),
         };
         self.errors.observe(t, self.info, entry);
+    }
+
+    /// The estimated error of an entry of the state at the end of a run in fixed steps, for tests.
+    #[doc(hidden)]
+    pub fn error_of_entry(&self, index: usize) -> Option<f64> {
+        let over = over_halves(self.fixed?.order());
+        Some(over * self.error[index].to_f64())
     }
 
     /// Integrates a state from `t` over `length` in two steps.

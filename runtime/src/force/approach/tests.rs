@@ -2,8 +2,8 @@
 
 use super::space::{Quadric, approach, dot, overlap, touch};
 use super::{plane, space};
+use crate::real::Array2;
 use crate::real::lanes::{OfAnyWidth, with_width};
-use crate::test_scalars::Pair;
 use crate::{DoubleDouble, Dual, Real, Several, Task, Width};
 
 type Vector = [f64; 3];
@@ -150,12 +150,13 @@ fn spheres_meet_on_their_line() {
 fn lanes_and_derivatives_pass() {
     let (a, b, d) = pairs()[7];
     let (e, f, g) = pairs()[200];
-    let pack =
-        |p: [f64; 6], q: [f64; 6]| -> [Pair; 6] { core::array::from_fn(|i| Pair([p[i], q[i]])) };
+    let pack = |p: [f64; 6], q: [f64; 6]| -> [Array2; 6] {
+        core::array::from_fn(|i| Array2([p[i], q[i]]))
+    };
     let both = call(
         pack(a, e),
         pack(b, f),
-        core::array::from_fn(|i| Pair([d[i], g[i]])),
+        core::array::from_fn(|i| Array2([d[i], g[i]])),
     );
     for (lane, alone) in [call(a, b, d), call(e, f, g)].into_iter().enumerate() {
         for (both, alone) in both.iter().zip(alone) {

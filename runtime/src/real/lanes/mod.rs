@@ -27,8 +27,6 @@ pub(super) mod elementary;
 mod neon;
 mod register;
 mod several;
-#[cfg(test)]
-mod tests;
 
 pub(crate) use alone::Alone;
 #[cfg(target_arch = "x86_64")]

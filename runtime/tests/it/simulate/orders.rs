@@ -1,8 +1,10 @@
 //! The order of every method as observed: on a smooth problem, and on problems with kinks that are located or passed.
 
-use super::{Method, Settings, run, simulate, simulate_stiff};
-use crate::test_models::{Ball, Kepler, Tether};
-use crate::{Differentiable, DoubleDouble, Formula, Model, ParameterSet, Real, Tolerances};
+use crate::models::{Ball, Kepler, Tether};
+use bryant_runtime::simulate::{Method, Settings, run, simulate, simulate_stiff};
+use bryant_runtime::{
+    Differentiable, DoubleDouble, Formula, Model, ParameterSet, Real, Tolerances,
+};
 use core::ops::ControlFlow;
 
 /// The state at the end of a run, whose only samples are those at its ends.
@@ -254,7 +256,7 @@ fn error_follows_the_tolerance_with_kinks_located_or_not() {
         for locate in [true, false] {
             for tolerance in [1e-4, 1e-6, 1e-8] {
                 let method = Method::adaptive(formula, Tolerances::uniform(tolerance));
-                let model = <Tether as Model<f64>>::new(crate::test_models::None);
+                let model = <Tether as Model<f64>>::new(crate::models::None);
                 let settings = Settings {
                     method,
                     locate,

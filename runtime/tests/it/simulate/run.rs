@@ -1,12 +1,12 @@
 //! Runs that are left and resumed have the bits of runs that are not; runs that begin later go on where others ended.
 
-use super::Run;
-use crate::failure::Reason;
-use crate::simulate::{Method, Report, Sample, Settings, Watch, run_in, workspace_length};
-use crate::test_models::{
+use crate::models::{
     Chain, Counter, Explosion, Follower, Kepler, Oscillator, Ratchet, Sled, Spin, Stage,
 };
-use crate::{Differentiable, Formula, Model, ParameterSet, Tolerances};
+use bryant_runtime::failure::Reason;
+use bryant_runtime::simulate::Run;
+use bryant_runtime::simulate::{Method, Report, Sample, Settings, Watch, run_in, workspace_length};
+use bryant_runtime::{Differentiable, Formula, Model, ParameterSet, Real, Tolerances};
 use std::ops::ControlFlow;
 
 /// Time, state and outputs of a sample, in bits.
@@ -71,7 +71,7 @@ where
     }
     // the end of the last step, as one run has it
     let report = run.report();
-    run.go(&mut |_| ControlFlow::Continue(()), None).unwrap();
+    f64::march(&mut run, &mut |_| ControlFlow::Continue(()), None).unwrap();
     (samples, report, watch.balance.gap().to_bits())
 }
 
@@ -106,7 +106,7 @@ where
                     "{name} by {method:?}"
                 );
                 // steps under control of their error do not end at samples
-                if matches!(method.pace, crate::simulate::Pace::Adaptive(_)) {
+                if matches!(method.pace, bryant_runtime::simulate::Pace::Adaptive(_)) {
                     let (more, _, same) = piecewise::<M>(&settings, &times, 1, true);
                     assert_eq!((more, same), (samples, gap), "{name} by {method:?}");
                 }
@@ -250,7 +250,7 @@ fn a_start_outside_of_the_run_is_refused() {
         let mut memory = vec![0.0; workspace_length(info, &settings)];
         let (dynamics, initial) = (Differentiable(&model), model.initial_state());
         let refused = Run::new(&mut memory, &dynamics, initial.as_ref(), &settings, None);
-        let Err(crate::Failure {
+        let Err(bryant_runtime::Failure {
             reason: Reason::InvalidSettings(setting),
             ..
         }) = refused.map(|_| ())

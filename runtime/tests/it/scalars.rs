@@ -1,6 +1,6 @@
 //! A scalar of two lanes for the tests only. It shows that the trait carries several scenarios at once.
 
-use crate::real::{Mask, Real};
+use bryant_runtime::real::{Mask, Real};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
 /// Two scenarios side by side.
@@ -67,7 +67,14 @@ impl AddAssign for Pair {
 
 impl Real for Pair {
     type Mask = PairMask;
-    crate::real::without_slopes!();
+    type Value = Self;
+
+    fn value(self) -> Self {
+        self
+    }
+    fn of_value(value: Self) -> Self {
+        value
+    }
 
     fn from_f64(value: f64) -> Self {
         Pair([value; 2])

@@ -1,12 +1,14 @@
 //! Lanes against single runs, against each other, and against closed forms.
 
-use super::rows::{Asked, Job, gradients, rows, rows_of_singles};
-use super::{Ended, Fixed, Method, Pace, STEPS_BETWEEN, Scenarios, Series, Settings, Status, run};
-use crate::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
-use crate::response::Response;
-use crate::simulate::{Settings as Single, simulate};
-use crate::test_models::Ledge;
-use crate::{
+use crate::models::Ledge;
+use bryant_runtime::batch::rows::{Asked, Job, gradients, rows, rows_of_singles};
+use bryant_runtime::batch::{
+    Ended, Fixed, Method, Pace, STEPS_BETWEEN, Scenarios, Series, Settings, Status, run,
+};
+use bryant_runtime::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
+use bryant_runtime::response::Response;
+use bryant_runtime::simulate::{Settings as Single, simulate};
+use bryant_runtime::{
     Compiled, Dual, Formula, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
     Tolerances,
 };
@@ -214,7 +216,7 @@ fn settings(pace: Pace) -> Settings {
         locate: false,
         max_steps: 100_000,
         time_limit: None,
-        energy_limit: crate::simulate::ENERGY_LIMIT,
+        energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
     }
 }
 
@@ -327,7 +329,7 @@ fn alone(row: [f64; 4], tolerance: f64) -> Vec<f64> {
     let model = Bumper::new(Parameters { all: row });
     let settings = Single {
         every: 0.01,
-        method: crate::Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
+        method: bryant_runtime::Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
         ..Single::of(Bumper::<f64>::INFO)
     };
     let mut samples: [Vec<f64>; 2] = Default::default();
@@ -397,7 +399,7 @@ fn a_limit_on_steps_is_kept() {
     let few = Settings {
         max_steps: 20,
         time_limit: None,
-        energy_limit: crate::simulate::ENERGY_LIMIT,
+        energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         ..adaptive()
     };
     for (ended, values) in with_width(Width::widest(), Values(&few, scenarios(9))).unwrap() {

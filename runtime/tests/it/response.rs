@@ -1,8 +1,16 @@
 //! Responses of signals whose answers are known in closed form, and their derivatives.
 
-use super::{FallingLimit, Response, STANDARD_GRAVITY as G, exceedance_of, reduce};
-use crate::real::{Dual, Real};
-use crate::test_scalars::Pair;
+mod answer;
+mod channel;
+mod filter;
+mod jumps;
+mod olc;
+
+use crate::scalars::Pair;
+use bryant_runtime::real::{Dual, Real};
+use bryant_runtime::response::{
+    FallingLimit, Response, STANDARD_GRAVITY as G, exceedance_of, reduce,
+};
 use core::f64::consts::PI;
 
 /// HIC 15 and 36.

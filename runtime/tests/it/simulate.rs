@@ -1,29 +1,30 @@
 //! Runs against closed forms, orders of convergence, and every way to fail.
 
-use super::time_loop::TimeLoop;
-use super::{
-    Adaptive, Cause, Method, Pace, Report, Sample, Settings, Watch, run_in, simulate,
-    simulate_from, simulate_stiff, workspace_length,
-};
-use crate::failure::{Culprit, Failure, Quantity, Reason};
-use crate::integrate::AnyStepper;
-use crate::integrate::control::Tolerances;
-use crate::integrate::workspace::Workspace;
-use crate::test_models::{
+mod orders;
+mod run;
+mod watch;
+
+use crate::models::{
     Chain, Counter, Explosion, Follower, Kepler, Ledge, Oscillator, PULSE, Pendulum, Ratchet,
     Runaway, Sled, Spin, Stage, Stiff, Undefined, Undetermined,
 };
-use crate::test_scalars::Pair;
-use crate::{Differentiable, Direct, Dual, Formula, Model};
+use crate::scalars::Pair;
+use bryant_runtime::failure::{Culprit, Failure, Quantity, Reason};
+use bryant_runtime::integrate::control::Tolerances;
+use bryant_runtime::simulate::{
+    Adaptive, Cause, Method, Pace, Report, Run, Sample, Settings, Watch, run_in, simulate,
+    simulate_from, simulate_stiff, workspace_length,
+};
+use bryant_runtime::{Differentiable, Direct, Dual, Formula, Model};
 use std::ops::ControlFlow;
 
 type Rows = Vec<(f64, Vec<f64>)>;
 
 fn rows<M: Model<f64>>(settings: &Settings) -> (Rows, Result<Report, Failure>)
 where
-    M::Parameters: crate::ParameterSet<f64>,
+    M::Parameters: bryant_runtime::ParameterSet<f64>,
 {
-    use crate::ParameterSet;
+    use bryant_runtime::ParameterSet;
     let model = M::new(M::Parameters::defaults());
     let mut rows = Vec::new();
     let report = simulate(&model, settings, &mut |sample| {
@@ -561,7 +562,7 @@ fn steps_end_at_events_and_memory_changes_between_steps() {
 
 #[test]
 fn the_first_of_several_lanes_ends_the_step_for_all() {
-    let model = <Ratchet as Model<Pair>>::new(crate::test_models::None);
+    let model = <Ratchet as Model<Pair>>::new(crate::models::None);
     let mut initial = Model::<Pair>::initial_state(&model);
     // the second lane starts half a turn ahead
     initial[0] = Pair([-1.0, 1.0]);
@@ -634,7 +635,7 @@ fn what_a_switch_makes_fire_fires_in_the_same_instant() {
     }
 }
 
-const STAGE: &crate::Info = <Stage as Model<f64>>::INFO;
+const STAGE: &bryant_runtime::Info = <Stage as Model<f64>>::INFO;
 
 /// Every number of a run in bits, by one method in this memory.
 fn bits(
@@ -675,6 +676,7 @@ fn what_memory_holds_before_does_not_matter() {
     }
 }
 
+/// A run asserts that it needs all of its workspace; it panics if it needs more.
 #[test]
 fn a_workspace_is_as_long_as_it_is_said_to_be() {
     fn check<M: Model<f64>>() {
@@ -685,13 +687,11 @@ fn a_workspace_is_as_long_as_it_is_said_to_be() {
             ];
             for method in methods {
                 let settings = of::<M>(method);
-                let model = M::new(crate::ParameterSet::defaults());
+                let model = M::new(bryant_runtime::ParameterSet::defaults());
                 let mut memory = vec![0.0; workspace_length(M::INFO, &settings)];
-                let mut workspace = Workspace::new(&mut memory);
-                let (direct, start) = (Direct(&model), model.initial_state());
-                TimeLoop::new(&direct, start.as_ref(), &settings, None, &mut workspace);
-                AnyStepper::new(&settings.method, M::INFO, &mut workspace);
-                assert_eq!(workspace.left(), 0, "{} by {formula}", M::INFO.name);
+                let (model, start) = (Differentiable(&model), model.initial_state());
+                Run::new(&mut memory, &model, start.as_ref(), &settings, None)
+                    .unwrap_or_else(|failure| panic!("{} by {formula}: {failure}", M::INFO.name));
             }
         }
     }

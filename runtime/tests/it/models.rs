@@ -1,7 +1,9 @@
 //! Small models written by hand, for the tests of integrators and runs.
 
-use crate::curve::{Curve, Extrapolate};
-use crate::{CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind};
+use bryant_runtime::curve::{Curve, Extrapolate};
+use bryant_runtime::{
+    CurveInfo, Info, Model, OutputInfo, ParameterInfo, ParameterSet, Real, StateKind,
+};
 
 /// No parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -274,7 +276,7 @@ impl<T: Real> Model<T> for Runaway {
             ends: [0.0, 1e-3],
             extrapolate: Extrapolate::Error,
             told: true,
-            kind: crate::CurveKind::Curve,
+            kind: bryant_runtime::CurveKind::Curve,
         }],
         outputs: &[
             OutputInfo {

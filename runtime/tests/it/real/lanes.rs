@@ -1,8 +1,8 @@
 //! Registers of all widths give the same bits as each other and as scalar arithmetic, for doubles and for singles.
 
-use super::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
-use crate::Task;
-use crate::real::{Mask, Real};
+use bryant_runtime::Task;
+use bryant_runtime::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
+use bryant_runtime::real::{Mask, Real};
 
 /// Numbers of many kinds.
 fn numbers() -> Vec<f64> {
@@ -57,7 +57,7 @@ impl<F: Real> OfAnyWidth<F> for Everything {
         let (left, right): (Vec<F>, Vec<F>) = pairs::<F>().unzip();
         let mut results = Vec::new();
         let pad = |values: &[F]| {
-            let mut lanes = [F::from_f64(0.0); super::MOST_LANES];
+            let mut lanes = [F::from_f64(0.0); bryant_runtime::real::lanes::MOST_LANES];
             lanes[..values.len()].copy_from_slice(values);
             T::of_lanes(&lanes)
         };
@@ -293,7 +293,7 @@ fn a_lane_is_what_was_put_there() {
             }
             assert_eq!(all.to_f64(), (T::LANES - 1) as f64);
             assert_eq!((-all).to_f64(), 0.0);
-            let turned: [u8; super::MOST_LANES] =
+            let turned: [u8; bryant_runtime::real::lanes::MOST_LANES] =
                 std::array::from_fn(|i| ((3 * i + 1) % T::LANES) as u8);
             let ordered = all.ordered(T::order(&turned));
             for (i, lane) in turned.iter().enumerate().take(T::LANES) {

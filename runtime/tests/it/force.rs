@@ -1,0 +1,5 @@
+//! Force laws.
+
+mod ellipsoid;
+mod power;
+mod switch;

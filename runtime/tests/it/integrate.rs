@@ -1,0 +1,4 @@
+//! Steps of a method, without a time loop.
+
+mod adams;
+mod march;
