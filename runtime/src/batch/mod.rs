@@ -50,6 +50,8 @@ mod step;
 mod tolerance;
 mod watch;
 
+#[doc(hidden)]
+pub use models::{with_compiled, with_compiled_singles};
 pub use run::{STEPS_BETWEEN, run};
 pub use scenario::{Doubt, Ended, Scenarios, Series, Status};
 pub use settings::{Fixed, Method, Pace, Settings};

@@ -5,7 +5,7 @@
 //! behind it is compiled again.
 
 use crate::real::Several;
-use crate::real::lanes::{Alone, Lanes, Width};
+use crate::real::lanes::{Alone, Lanes, OfAnyWidth, Width};
 use crate::{Adjustable, Dual, Family, Info, Real, Schedule};
 
 /// The models of one family that a batch needs.
@@ -162,5 +162,26 @@ pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
         Width::Plain => task.run(source.plain()),
         Width::One | Width::Two | Width::Four => task.run(source.narrow()),
         Width::Eight => task.run(source.wide()),
+    })
+}
+
+/// Does work with registers of doubles, as [`with_width`](crate::real::lanes::with_width), but with those for which the
+/// time loop is compiled in this crate. For tests.
+#[doc(hidden)]
+pub fn with_compiled<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
+    with_numbers::<Doubles, W>(width, task)
+}
+
+/// [`with_compiled`], with registers of singles.
+#[doc(hidden)]
+pub fn with_compiled_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Option<W::Output> {
+    with_numbers::<Singles, W>(width, task)
+}
+
+fn with_numbers<N: Numbers, W: OfAnyWidth<N::One>>(width: Width, task: W) -> Option<W::Output> {
+    width.there().then(|| match width {
+        Width::Plain => task.run::<N::Plain>(),
+        Width::One | Width::Two | Width::Four => task.run::<N::Narrow>(),
+        Width::Eight => task.run::<N::Wide>(),
     })
 }

@@ -5,7 +5,8 @@ use bryant_runtime::batch::rows::{Asked, Job, gradients, rows, rows_of_singles};
 use bryant_runtime::batch::{
     Ended, Fixed, Method, Pace, STEPS_BETWEEN, Scenarios, Series, Settings, Status, run,
 };
-use bryant_runtime::real::lanes::{OfAnyWidth, Several, Width, with_width, with_width_of_singles};
+use bryant_runtime::batch::{with_compiled, with_compiled_singles};
+use bryant_runtime::real::lanes::{OfAnyWidth, Several, Width};
 use bryant_runtime::response::Response;
 use bryant_runtime::simulate::{Settings as Single, simulate};
 use bryant_runtime::{
@@ -287,8 +288,8 @@ fn a_event_function_that_jumps_where_a_lane_stands_does_not_stop_it() {
             ..settings(pace)
         };
         for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
-            let doubles = with_width(width, Ledges(&settings));
-            let singles = with_width_of_singles(width, Ledges(&settings));
+            let doubles = with_compiled(width, Ledges(&settings));
+            let singles = with_compiled_singles(width, Ledges(&settings));
             for ended in doubles.into_iter().chain(singles).flatten() {
                 let ended = ended.unwrap();
                 assert_eq!((ended.status, ended.t), (Status::Done, 4.0), "{ended:?}");
@@ -341,24 +342,33 @@ fn alone(row: [f64; 4], tolerance: f64) -> Vec<f64> {
     samples.concat()
 }
 
+type Runs = Vec<(Ended, Vec<f64>)>;
+
+/// Each scenario in a batch of its own.
+fn one_by_one(batch: &dyn Fn(Vec<[f64; 4]>) -> Option<Runs>) -> Option<Runs> {
+    let each = scenarios(37).into_iter();
+    let runs: Option<Vec<Runs>> = each.map(|row| batch(vec![row])).collect();
+    Some(runs?.concat())
+}
+
 #[test]
 fn lanes_equal_scalar() {
     let steps = || Method::ALL.into_iter().map(|method| fixed(method, 1e-3));
     for settings in steps().chain([adaptive()]) {
-        let narrow = with_width(Width::One, Values(&settings, scenarios(37)));
-        for width in [Width::Two, Width::Four, Width::Eight] {
-            let wide = with_width(width, Values(&settings, scenarios(37)));
-            if let (Some(wide), Some(narrow)) = (wide, &narrow) {
-                assert_eq!(bits(&wide), bits(narrow), "{width:?}");
+        let alone = one_by_one(&|rows| with_compiled(Width::One, Values(&settings, rows)));
+        for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
+            let abreast = with_compiled(width, Values(&settings, scenarios(37)));
+            if let (Some(abreast), Some(alone)) = (abreast, &alone) {
+                assert_eq!(bits(&abreast), bits(alone), "{width:?}");
             }
         }
     }
     for settings in steps().chain([coarse()]) {
-        let narrow = with_width_of_singles(Width::One, Values(&settings, scenarios(37)));
-        for width in [Width::Two, Width::Four, Width::Eight] {
-            let wide = with_width_of_singles(width, Values(&settings, scenarios(37)));
-            if let (Some(wide), Some(narrow)) = (wide, &narrow) {
-                assert_eq!(bits(&wide), bits(narrow), "singles, {width:?}");
+        let alone = one_by_one(&|rows| with_compiled_singles(Width::One, Values(&settings, rows)));
+        for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
+            let abreast = with_compiled_singles(width, Values(&settings, scenarios(37)));
+            if let (Some(abreast), Some(alone)) = (abreast, &alone) {
+                assert_eq!(bits(&abreast), bits(alone), "singles, {width:?}");
             }
         }
     }
@@ -366,9 +376,9 @@ fn lanes_equal_scalar() {
 
 #[test]
 fn a_run_is_the_same_whatever_its_neighbours_do() {
-    let all = with_width(Width::widest(), Values(&adaptive(), scenarios(37))).unwrap();
+    let all = with_compiled(Width::widest(), Values(&adaptive(), scenarios(37))).unwrap();
     for (i, row) in scenarios(37).into_iter().enumerate() {
-        let one = with_width(Width::widest(), Values(&adaptive(), vec![row])).unwrap();
+        let one = with_compiled(Width::widest(), Values(&adaptive(), vec![row])).unwrap();
         assert_eq!(bits(&one), bits(&all[i..=i]));
     }
 }
@@ -379,8 +389,8 @@ fn a_lane_that_fails_is_told_and_disturbs_nobody() {
     rows[3][1] = -1.0;
     rows[10][0] = f64::NAN;
     rows[11][3] = f64::INFINITY;
-    let runs = with_width(Width::widest(), Values(&adaptive(), rows)).unwrap();
-    let good = with_width(Width::widest(), Values(&adaptive(), scenarios(24))).unwrap();
+    let runs = with_compiled(Width::widest(), Values(&adaptive(), rows)).unwrap();
+    let good = with_compiled(Width::widest(), Values(&adaptive(), scenarios(24))).unwrap();
     for (i, (run, good)) in runs.iter().zip(&good).enumerate() {
         match i {
             3 | 10 | 11 => assert_eq!(run.0.status, Status::Refused),
@@ -402,7 +412,7 @@ fn a_limit_on_steps_is_kept() {
         energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         ..adaptive()
     };
-    for (ended, values) in with_width(Width::widest(), Values(&few, scenarios(9))).unwrap() {
+    for (ended, values) in with_compiled(Width::widest(), Values(&few, scenarios(9))).unwrap() {
         assert_eq!(ended.status, Status::TooManySteps);
         assert_eq!(ended.steps + ended.rejected, 20);
         assert!(ended.t > 0.0 && ended.t < 0.4);
@@ -412,7 +422,7 @@ fn a_limit_on_steps_is_kept() {
 
 #[test]
 fn runs_are_those_of_the_ordinary_time_loop() {
-    let runs = with_width(Width::widest(), Values(&adaptive(), scenarios(24))).unwrap();
+    let runs = with_compiled(Width::widest(), Values(&adaptive(), scenarios(24))).unwrap();
     for (row, (ended, values)) in scenarios(24).into_iter().zip(&runs) {
         assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
         // either errs by at most a tolerance a step, which the motion does not amplify: two or three periods of an oscillator, whose
@@ -439,8 +449,8 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
     let cases = all.flat_map(|method| [(method, 0.01, 40), (method, 0.04, 3 + 8)]);
     for (method, step, steps) in cases {
         let settings = fixed(method, step);
-        let doubles = with_width(Width::Plain, Values(&settings, vec![row]));
-        let singles = with_width_of_singles(Width::Plain, Values(&settings, vec![row]));
+        let doubles = with_compiled(Width::Plain, Values(&settings, vec![row]));
+        let singles = with_compiled_singles(Width::Plain, Values(&settings, vec![row]));
         let both = [(doubles, f64::EPSILON), (singles, f64::from(f32::EPSILON))];
         for (runs, epsilon) in both {
             let (ended, values) = runs.unwrap().remove(0);
@@ -461,11 +471,11 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
 
 #[test]
 fn singles_keep_their_tolerance() {
-    let runs = with_width_of_singles(Width::widest(), Values(&coarse(), scenarios(24))).unwrap();
+    let runs = with_compiled_singles(Width::widest(), Values(&coarse(), scenarios(24))).unwrap();
     for (row, (ended, values)) in scenarios(24).into_iter().zip(&runs) {
         assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
         // steps that rounding makes shorter would be many more
-        let of_doubles = with_width(Width::widest(), Values(&coarse(), vec![row])).unwrap();
+        let of_doubles = with_compiled(Width::widest(), Values(&coarse(), vec![row])).unwrap();
         let doubles = of_doubles[0].0.steps + of_doubles[0].0.rejected;
         let singles = ended.steps + ended.rejected;
         assert!(singles <= doubles + doubles / 5 + 2, "{singles} {doubles}");
@@ -482,8 +492,8 @@ fn singles_keep_their_tolerance() {
 #[test]
 fn singles_differ_from_doubles_by_rounding_alone() {
     let fixed = fixed(Method::Rk4, 1e-3);
-    let singles = with_width_of_singles(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
-    let doubles = with_width(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
+    let singles = with_compiled_singles(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
+    let doubles = with_compiled(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
     for (i, (single, double)) in singles.iter().zip(&doubles).enumerate() {
         assert!(single.0.steps.abs_diff(double.0.steps) <= 1, "{i}");
         // a few roundings a step of places and velocities up to 2
@@ -501,7 +511,7 @@ fn singles_differ_from_doubles_by_rounding_alone() {
 #[test]
 fn an_error_that_singles_cannot_keep_is_told() {
     // 10⁻⁸ of a force is less than singles tell apart
-    let runs = with_width_of_singles(Width::widest(), Values(&adaptive(), scenarios(9))).unwrap();
+    let runs = with_compiled_singles(Width::widest(), Values(&adaptive(), scenarios(9))).unwrap();
     for (ended, values) in runs {
         let done = ended.status == Status::Done;
         assert!(done || ended.status == Status::StepTooSmall, "{ended:?}");
@@ -711,7 +721,7 @@ fn derivatives_are_those_of_differences_across_events() {
             })
         })
         .collect();
-    let runs = with_width(Width::widest(), Slopes(&located, rows)).unwrap();
+    let runs = with_compiled(Width::widest(), Slopes(&located, rows)).unwrap();
     for (along, (ended, values)) in runs.iter().enumerate() {
         assert_eq!(ended.status, Status::Done);
         let moved = |by: f64| {
@@ -818,7 +828,7 @@ fn what_is_given_up_ends_there_and_nothing_else_does() {
     // 4000 steps or some more, asked at every 1024th
     for (patience, steps) in [(100, 1024), (1024, 2048), (3000, 3072), (4096, u32::MAX)] {
         for width in Width::ALL.into_iter().filter(|width| width.there()) {
-            let ended = with_width(width, Impatient(patience)).expect("registers");
+            let ended = with_compiled(width, Impatient(patience)).expect("registers");
             for (scenario, ended) in ended.iter().enumerate() {
                 if scenario % 2 == 1 && steps < u32::MAX {
                     assert_eq!((ended.status, ended.steps), (Status::TooManySteps, steps));

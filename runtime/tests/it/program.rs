@@ -4,8 +4,8 @@ mod job;
 mod reading;
 
 use crate::models::{Oscillator, Runaway};
-use bryant_runtime::program::{Entry, ErrorKind, Job, run, run_job, run_job_observed};
-use bryant_runtime::{Compiled, Model, ParameterSet, Section};
+use bryant_runtime::program::{Entry, ErrorKind, Job, run, run_model_observed};
+use bryant_runtime::{Compiled, Family, Model, ParameterSet, Section};
 use std::ops::ControlFlow;
 use std::time::Duration;
 
@@ -37,10 +37,13 @@ fn what_an_entry_runs_is_what_its_family_does() {
     job.parameters.push(("stiffness".into(), 9.0));
     let (direct, report) = rows_of(&TABLE[0], &job);
     let mut rows = Vec::new();
-    let outcome = run_job(&Compiled::<Oscillator>::new(), &job, &mut |t, y, o| {
+    let family = Compiled::<Oscillator>::new();
+    let mut writer = |t, y: &[f64], o: &[f64]| {
         rows.push((t, y.to_vec(), o.to_vec()));
         ControlFlow::Continue(())
-    });
+    };
+    let going_on = &mut |_| ControlFlow::Continue(());
+    let outcome = run_model_observed(family.over(), &job, &mut writer, going_on);
     assert_eq!(rows, direct);
     assert_eq!(outcome.result.unwrap(), report.unwrap());
 }
@@ -88,8 +91,8 @@ fn an_observer_hears_between_samples_and_stops_a_run() {
         ..Job::default()
     };
     let (mut rows, mut heard) = (0, Vec::new());
-    let outcome = run_job_observed(
-        &Compiled::<Oscillator>::new(),
+    let outcome = run_model_observed(
+        Compiled::<Oscillator>::new().over::<f64>(),
         &job,
         &mut |_, _, _| {
             rows += 1;

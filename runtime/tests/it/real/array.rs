@@ -24,49 +24,35 @@ fn bits(x: f64) -> u64 {
     }
 }
 
-/// A function of three arguments over any scalar.
-trait Function {
-    fn of<T: Real>(a: T, b: T, c: T) -> T;
+/// The results of functions of three arguments, with their names.
+fn results<T: Real>([a, b, c]: [T; 3]) -> [(&'static str, T); 16] {
+    [
+        ("sum", a + b),
+        ("difference", a - b),
+        ("product", a * b),
+        ("quotient", a / b),
+        ("fused", a.mul_add(b, c)),
+        ("root", a.sqrt()),
+        ("sine", a.sin_cos().0),
+        ("cosine", a.sin_cos().1),
+        ("angle", a.atan2(b)),
+        ("exponential", a.exp()),
+        ("logarithm", a.abs().ln()),
+        ("power", a.abs().powf(b)),
+        ("larger", a.max(b)),
+        ("smaller", a.min(b)),
+        ("chosen", T::select(a.lt(b), c, -a)),
+        ("negative", -a),
+    ]
 }
 
-macro_rules! functions {
-    ($($name:ident: |$a:ident, $b:ident, $c:ident| $value:expr;)*) => {
-        $(
-            struct $name;
-            impl Function for $name {
-                fn of<T: Real>($a: T, $b: T, $c: T) -> T {
-                    let _ = ($a, $b, $c);
-                    $value
-                }
-            }
-        )*
-        #[test]
-        fn lanes_are_doubles_with_their_slopes() {
-            $(compare::<$name>(stringify!($name));)*
-        }
-    };
+/// Value and slope of the lane of a dual number, in bits.
+fn lane_of<T: Real>(dual: Dual<T>, lane: impl Fn(T) -> f64) -> [u64; 2] {
+    [bits(lane(dual.value)), bits(lane(dual.slope))]
 }
 
-functions! {
-    Sum: |a, b, c| a + b;
-    Difference: |a, b, c| a - b;
-    Product: |a, b, c| a * b;
-    Quotient: |a, b, c| a / b;
-    Fused: |a, b, c| a.mul_add(b, c);
-    Root: |a, b, c| a.sqrt();
-    Sine: |a, b, c| a.sin_cos().0;
-    Cosine: |a, b, c| a.sin_cos().1;
-    Angle: |a, b, c| a.atan2(b);
-    Exponential: |a, b, c| a.exp();
-    Logarithm: |a, b, c| a.abs().ln();
-    Power: |a, b, c| a.abs().powf(b);
-    Larger: |a, b, c| a.max(b);
-    Smaller: |a, b, c| a.min(b);
-    Chosen: |a, b, c| T::select(a.lt(b), c, -a);
-    Negative: |a, b, c| -a;
-}
-
-fn compare<F: Function>(name: &str) {
+#[test]
+fn lanes_are_doubles_with_their_slopes() {
     for (i, a) in NUMBERS.into_iter().enumerate() {
         for (j, b) in NUMBERS.into_iter().enumerate() {
             let c = NUMBERS[(i + 2 * j) % NUMBERS.len()];
@@ -81,39 +67,31 @@ fn compare<F: Function>(name: &str) {
                     slope: NUMBERS[(3 * k + 7 * lane + j) % 10],
                 };
                 let lane = |lane| [at(i, a, lane), at(j, b, lane), at(i + j, c, lane)];
-                let eight = [0, 1, 2].map(|k| Dual {
-                    value: Array8(core::array::from_fn(|l| lane(l)[k].value)),
-                    slope: Array8(core::array::from_fn(|l| lane(l)[k].slope)),
-                });
-                let four = [0, 1, 2].map(|k| Dual {
-                    value: Array4(core::array::from_fn(|l| lane(l)[k].value)),
-                    slope: Array4(core::array::from_fn(|l| lane(l)[k].slope)),
-                });
-                let two = [0, 1, 2].map(|k| Dual {
-                    value: Array2(core::array::from_fn(|l| lane(l)[k].value)),
-                    slope: Array2(core::array::from_fn(|l| lane(l)[k].slope)),
-                });
-                let two = F::of(two[0], two[1], two[2]);
-                let eight = F::of(eight[0], eight[1], eight[2]);
-                let four = F::of(four[0], four[1], four[2]);
-                for l in 0..8 {
-                    let [a, b, c] = lane(l);
-                    let alone = F::of(a, b, c);
-                    let alone = [alone.value, alone.slope].map(bits);
-                    assert_eq!(
-                        [eight.value.0[l], eight.slope.0[l]].map(bits),
-                        alone,
-                        "{name}"
-                    );
-                    if l < 2 {
-                        assert_eq!([two.value.0[l], two.slope.0[l]].map(bits), alone, "{name}");
-                    }
-                    if l < 4 {
-                        assert_eq!(
-                            [four.value.0[l], four.slope.0[l]].map(bits),
-                            alone,
-                            "{name}"
-                        );
+                let lanes = [0, 1, 2, 3, 4, 5, 6, 7].map(lane);
+                let values = |k: usize| lanes.map(|lane| lane[k].value);
+                let slopes = |k: usize| lanes.map(|lane| lane[k].slope);
+                let eight = results([0, 1, 2].map(|k| Dual {
+                    value: Array8(values(k)),
+                    slope: Array8(slopes(k)),
+                }));
+                let four = results([0, 1, 2].map(|k| Dual {
+                    value: Array4(*values(k).first_chunk().unwrap()),
+                    slope: Array4(*slopes(k).first_chunk().unwrap()),
+                }));
+                let two = results([0, 1, 2].map(|k| Dual {
+                    value: Array2(*values(k).first_chunk().unwrap()),
+                    slope: Array2(*slopes(k).first_chunk().unwrap()),
+                }));
+                for (l, arguments) in lanes.into_iter().enumerate() {
+                    for (f, (name, alone)) in results(arguments).into_iter().enumerate() {
+                        let alone = lane_of(alone, |x| x);
+                        assert_eq!(lane_of(eight[f].1, |x| x.0[l]), alone, "{name}");
+                        if l < 4 {
+                            assert_eq!(lane_of(four[f].1, |x| x.0[l]), alone, "{name}");
+                        }
+                        if l < 2 {
+                            assert_eq!(lane_of(two[f].1, |x| x.0[l]), alone, "{name}");
+                        }
                     }
                 }
             }

@@ -6,7 +6,7 @@ use crate::models::{
 use bryant_runtime::failure::Reason;
 use bryant_runtime::simulate::Run;
 use bryant_runtime::simulate::{Method, Report, Sample, Settings, Watch, run_in, workspace_length};
-use bryant_runtime::{Differentiable, Formula, Model, ParameterSet, Real, Tolerances};
+use bryant_runtime::{Differentiable, Dynamics, Formula, Model, ParameterSet, Real, Tolerances};
 use std::ops::ControlFlow;
 
 /// Time, state and outputs of a sample, in bits.
@@ -18,18 +18,18 @@ fn bits(sample: Sample<'_, f64>) -> Vec<u64> {
 }
 
 /// All samples of one run, what it took, and what is missing in its balance.
-fn whole<M: Model<f64>>(settings: &Settings) -> (Vec<Vec<u64>>, Report, u64)
-where
-    M::Parameters: ParameterSet<f64>,
-{
-    let model = M::new(ParameterSet::<f64>::defaults());
-    let mut memory = vec![0.0; workspace_length(M::INFO, settings)];
-    let mut watch = Watch::new(M::INFO, 0.02);
+fn whole(
+    model: &dyn Dynamics<f64>,
+    start: &[f64],
+    settings: &Settings,
+) -> (Vec<Vec<u64>>, Report, u64) {
+    let mut memory = vec![0.0; workspace_length(model.info(), settings)];
+    let mut watch = Watch::new(model.info(), 0.02);
     let mut samples = Vec::new();
     let report = run_in(
         &mut memory,
-        &Differentiable(&model),
-        model.initial_state().as_ref(),
+        model,
+        start,
         settings,
         Some(&mut watch),
         &mut |sample| {
@@ -41,22 +41,16 @@ where
 }
 
 /// The same by a run that is asked for one sample after the other, and for each as often; and for one between two of them where `between`.
-fn piecewise<M: Model<f64>>(
+fn piecewise(
+    (model, start): (&dyn Dynamics<f64>, &[f64]),
     settings: &Settings,
     times: &[u64],
     often: usize,
     between: bool,
-) -> (Vec<Vec<u64>>, Report, u64)
-where
-    M::Parameters: ParameterSet<f64>,
-{
-    let model = M::new(ParameterSet::<f64>::defaults());
-    let dynamics = Differentiable(&model);
-    let mut memory = vec![f64::NAN; workspace_length(M::INFO, settings)];
-    let mut watch = Watch::new(M::INFO, 0.02);
-    let start = model.initial_state();
-    let begin = start.as_ref();
-    let mut run = Run::new(&mut memory, &dynamics, begin, settings, Some(&mut watch)).unwrap();
+) -> (Vec<Vec<u64>>, Report, u64) {
+    let mut memory = vec![f64::NAN; workspace_length(model.info(), settings)];
+    let mut watch = Watch::new(model.info(), 0.02);
+    let mut run = Run::new(&mut memory, model, start, settings, Some(&mut watch)).unwrap();
     let mut samples = Vec::new();
     let mut before = settings.start;
     for t in times.iter().map(|t| f64::from_bits(*t)) {
@@ -79,27 +73,33 @@ fn check<M: Model<f64>>()
 where
     M::Parameters: ParameterSet<f64>,
 {
-    let name = M::INFO.name;
+    let model = M::new(ParameterSet::<f64>::defaults());
+    check_from(&Differentiable(&model), model.initial_state().as_ref());
+}
+
+fn check_from(model: &dyn Dynamics<f64>, start: &[f64]) {
+    let info = model.info();
+    let name = info.name;
     for formula in Formula::ALL {
         for (locate, every) in [(false, 0.083), (true, 0.0101)] {
             let at = |method| Settings {
                 method,
                 locate,
-                every: every * M::INFO.duration,
-                ..Settings::of(M::INFO)
+                every: every * info.duration,
+                ..Settings::of(info)
             };
-            let mut methods = vec![Method::fixed(formula, 0.003 * M::INFO.duration)];
+            let mut methods = vec![Method::fixed(formula, 0.003 * info.duration)];
             if formula.estimates_error() {
                 methods.push(Method::adaptive(formula, Tolerances::uniform(1e-6)));
             }
             for method in methods {
                 let settings = at(method);
-                let (samples, report, gap) = whole::<M>(&settings);
+                let (samples, report, gap) = whole(model, start, &settings);
                 let times: Vec<u64> = samples.iter().map(|sample| sample[0]).collect();
-                let once = piecewise::<M>(&settings, &times, 1, false);
+                let once = piecewise((model, start), &settings, &times, 1, false);
                 assert!(samples.len() > 12, "{name}");
                 assert_eq!(once, (samples.clone(), report, gap), "{name} by {method:?}");
-                let (again, _, same) = piecewise::<M>(&settings, &times, 3, false);
+                let (again, _, same) = piecewise((model, start), &settings, &times, 3, false);
                 assert_eq!(
                     (again, same),
                     (samples.clone(), gap),
@@ -107,7 +107,7 @@ where
                 );
                 // steps under control of their error do not end at samples
                 if matches!(method.pace, bryant_runtime::simulate::Pace::Adaptive(_)) {
-                    let (more, _, same) = piecewise::<M>(&settings, &times, 1, true);
+                    let (more, _, same) = piecewise((model, start), &settings, &times, 1, true);
                     assert_eq!((more, same), (samples, gap), "{name} by {method:?}");
                 }
             }
