@@ -25,7 +25,7 @@ impl<'a, T: Several> Models<'a, T> {
         Models {
             all: family.for_batch::<T>(),
             packed: family.for_batch::<T>(),
-            lanes: (0..T::LANES).map(|_| family.schedule::<f64>()).collect(),
+            lanes: schedules(family, T::LANES),
             one,
         }
     }
@@ -40,6 +40,11 @@ impl<'a, T: Several> Models<'a, T> {
     pub(super) fn info(&self) -> &'static Info {
         self.all.info()
     }
+}
+
+/// The conditions and kinks of so many lanes. This is a function of its own, so that it is compiled once for all scalars.
+fn schedules(family: &impl Family, lanes: usize) -> Vec<Box<dyn Schedule<f64> + '_>> {
+    (0..lanes).map(|_| family.schedule::<f64>()).collect()
 }
 
 /// Numbers of one kind, and the registers that hold several of them, by width.

@@ -152,6 +152,7 @@ impl OnsetCache {
 mod tests {
     use super::{OnsetCache, Places, QUARTERS};
     use crate::Several;
+    use crate::real::by_index;
     use crate::real::lanes::{MOST_LANES, OfAnyWidth, Width, with_width};
     use crate::simulate::onset::{Course, Hunt, finest_gaps, onset_of, sides};
 
@@ -212,72 +213,116 @@ mod tests {
         (hunt.best(), asked)
     }
 
+    /// A step of each lane in the cache: what its [`OnsetCache::begin`] and [`OnsetCache::add`] take, from functions of
+    /// numbers, in registers of a type. All else is compiled once.
+    struct Registers {
+        lanes: usize,
+        /// The number `entry` of a lane at each quarter.
+        begin: fn(&mut OnsetCache, &dyn Fn(usize, usize, usize) -> f64),
+        /// The gap `onset` at each of the places.
+        add: fn(&mut OnsetCache, &Places<f64>, &dyn Fn(usize, usize) -> f64),
+    }
+
+    fn begin<T: Several<One = f64>>(
+        cache: &mut OnsetCache,
+        number: &dyn Fn(usize, usize, usize) -> f64,
+    ) {
+        let mut values = Vec::new();
+        for quarter in 0..=QUARTERS {
+            let mut all = vec![T::from_f64(0.0); 2 * ONSETS];
+            for (entry, value) in all.iter_mut().enumerate() {
+                *value = T::of_lanes(&by_index(0.0, |lane| number(quarter, entry, lane)));
+            }
+            values.push(all.into_boxed_slice());
+        }
+        cache.begin(&values);
+    }
+
+    fn add<T: Several<One = f64>>(
+        cache: &mut OnsetCache,
+        places: &Places<f64>,
+        gap: &dyn Fn(usize, usize) -> f64,
+    ) {
+        let mut all = [T::from_f64(0.0); ONSETS];
+        for (onset, value) in all.iter_mut().enumerate() {
+            *value = T::of_lanes(&by_index(0.0, |place| gap(place, onset)));
+        }
+        cache.add(places, &all);
+    }
+
     struct Compare;
 
     impl OfAnyWidth for Compare {
         type Output = ();
         fn run<T: Several<One = f64>>(self) {
-            let (mut found, mut looks, mut longest, mut asked) = (0, 0, 0, 0);
-            for seed in 0..300 {
-                let steps = steps(seed);
-                let new = || {
-                    let laws = ONSETS - CORNERS;
-                    Hunt::new(1.0, sides(ONSETS, CORNERS), laws, finest_gaps(false))
-                };
-                let of = |value: &dyn Fn(usize) -> f64| {
-                    T::of_lanes(&std::array::from_fn::<f64, MOST_LANES, _>(value))
-                };
-                let values = [0, 1, 2, 3, 4].map(|k| -> Box<[T]> {
-                    let theta = k as f64 / QUARTERS as f64;
-                    let gaps = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].at(theta)));
-                    let speeds = (0..ONSETS).map(|o| of(&|lane| steps[lane][o].speed()));
-                    gaps.chain(speeds).collect()
-                });
-                let mut looked = OnsetCache::new(ONSETS, CORNERS);
-                looked.begin(&values);
-                // some lanes do not search
-                let searches = |lane: usize| !(lane as u64 + seed).is_multiple_of(3);
-                let mut hunts: Vec<Option<Hunt>> =
-                    (0..T::LANES).map(|l| searches(l).then(new)).collect();
-                let mut best = [None; MOST_LANES];
-                loop {
-                    let mut places = Places::new(0.0);
-                    for (lane, place) in hunts.iter_mut().enumerate() {
-                        let ended =
-                            (place.as_mut()).is_some_and(|h| looked.go_on(lane, h, &mut places));
-                        if ended {
-                            best[lane] = place.take().and_then(|hunt| hunt.best());
-                        }
-                    }
-                    if places.is_empty() {
-                        break;
-                    }
-                    looked.look_ahead(&hunts, T::LANES, &mut places);
-                    assert!(places.each().count() <= T::LANES);
-                    let at: Vec<(usize, f64)> = places.each().collect();
-                    let gap = |place: usize, onset: usize| {
-                        at.get(place)
-                            .map_or(f64::NAN, |(l, theta)| steps[*l][onset].at(*theta))
-                    };
-                    let gaps = (0..ONSETS).map(|onset| of(&|place| gap(place, onset)));
-                    looked.add(&places, &gaps.collect::<Vec<T>>());
-                    looks += 1;
-                }
-                let mut most = 0;
-                for lane in (0..T::LANES).filter(|lane| searches(*lane)) {
-                    let (expected, times) = alone(&steps[lane], new());
-                    assert_eq!(best[lane], expected, "lane {lane} of {seed}");
-                    most = most.max(times);
-                    asked += times;
-                    found += usize::from(expected.is_some());
-                }
-                longest += most;
-            }
-            assert!(found > 20 && asked > 1000, "{found} of {asked}");
-            // every look takes every search one place further, or more where there is room
-            assert!(looks <= longest, "{looks} of {longest}");
-            assert!(T::LANES == 1 || looks < longest, "{looks} of {longest}");
+            compare(&Registers {
+                lanes: T::LANES,
+                begin: begin::<T>,
+                add: add::<T>,
+            });
         }
+    }
+
+    fn compare(registers: &Registers) {
+        let (mut found, mut looks, mut longest, mut asked) = (0, 0, 0, 0);
+        for seed in 0..300 {
+            let steps = steps(seed);
+            let new = || {
+                let laws = ONSETS - CORNERS;
+                Hunt::new(1.0, sides(ONSETS, CORNERS), laws, finest_gaps(false))
+            };
+            let mut looked = OnsetCache::new(ONSETS, CORNERS);
+            (registers.begin)(&mut looked, &|quarter, entry, lane| {
+                let theta = quarter as f64 / QUARTERS as f64;
+                match entry < ONSETS {
+                    true => steps[lane][entry].at(theta),
+                    false => steps[lane][entry - ONSETS].speed(),
+                }
+            });
+            // some lanes do not search
+            let searches = |lane: usize| !(lane as u64 + seed).is_multiple_of(3);
+            let mut hunts: Vec<Option<Hunt>> = (0..registers.lanes)
+                .map(|l| searches(l).then(new))
+                .collect();
+            let mut best = [None; MOST_LANES];
+            loop {
+                let mut places = Places::new(0.0);
+                for (lane, place) in hunts.iter_mut().enumerate() {
+                    let ended =
+                        (place.as_mut()).is_some_and(|h| looked.go_on(lane, h, &mut places));
+                    if ended {
+                        best[lane] = place.take().and_then(|hunt| hunt.best());
+                    }
+                }
+                if places.is_empty() {
+                    break;
+                }
+                looked.look_ahead(&hunts, registers.lanes, &mut places);
+                assert!(places.each().count() <= registers.lanes);
+                let at: Vec<(usize, f64)> = places.each().collect();
+                (registers.add)(&mut looked, &places, &|place, onset| {
+                    at.get(place)
+                        .map_or(f64::NAN, |(l, theta)| steps[*l][onset].at(*theta))
+                });
+                looks += 1;
+            }
+            let mut most = 0;
+            for lane in (0..registers.lanes).filter(|lane| searches(*lane)) {
+                let (expected, times) = alone(&steps[lane], new());
+                assert_eq!(best[lane], expected, "lane {lane} of {seed}");
+                most = most.max(times);
+                asked += times;
+                found += usize::from(expected.is_some());
+            }
+            longest += most;
+        }
+        assert!(found > 20 && asked > 1000, "{found} of {asked}");
+        // every look takes every search one place further, or more where there is room
+        assert!(looks <= longest, "{looks} of {longest}");
+        assert!(
+            registers.lanes == 1 || looks < longest,
+            "{looks} of {longest}"
+        );
     }
 
     #[test]

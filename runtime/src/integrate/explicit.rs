@@ -1,6 +1,6 @@
 //! A step of an explicit Runge–Kutta method:  k_i = f(t + c_i h, y + h Σ_{j<i} a_ij k_j),  y⁺ = y + h Σ b_i k_i.
 
-use super::tableau::{Tableau, hermite};
+use super::tableau::Tableau;
 use super::workspace::Workspace;
 use super::{Evaluator, Span, Stepper, combine};
 use crate::Real;
@@ -103,7 +103,7 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
         // h Σ e_i k_i begins with 0
         self.stage.fill(T::from_f64(0.0));
         combine(self.stage, self.span.h, first, self.k, errors);
-        if !second.is_empty() {
+        if const { !B::E[1].is_empty() } {
             let h = self.span.h;
             let state = errors.len();
             // |e|²/√(e² + ē²/100): of the order of e²/ē (Hairer, Nørsett & Wanner, Solving ODEs I, II.10), entry by
@@ -157,16 +157,9 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
 
     fn cubic(&self, theta: f64, inside: &mut [T]) -> bool {
         let own = B::ALL + usize::from(B::LAST_IS_FIRST) - B::STAGES;
-        let Some(last) = self.end_rate().filter(|_| own > 1) else {
-            return false;
-        };
-        let Span { h, y, end, .. } = &self.span;
-        let [step, at_first, at_last] = hermite(T::from_f64(theta));
-        let h = T::from_f64(*h);
-        let [at_first, at_last] = [at_first * h, at_last * h];
-        for (i, state) in inside.iter_mut().enumerate() {
-            let moved = step.mul_add(end[i] - y[i], y[i]);
-            *state = at_last.mul_add(last[i], at_first.mul_add(self.k[i], moved));
+        match self.end_rate() {
+            Some(last) if own > 1 => self.span.cubic([self.k, last], theta, inside),
+            _ => return false,
         }
         true
     }
@@ -183,8 +176,18 @@ impl<T: Real, B: Tableau> Stepper<T> for Explicit<'_, T, B> {
 
     fn neighbour(&self, state: &mut [T]) -> Option<&[T]> {
         // where the last stage is the first of the next step, its state is the end itself
-        let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
-        let index = (1..before).rev().find(|&i| B::C[i] == 1.0)?;
+        let index = const {
+            let mut i = B::STAGES - B::LAST_IS_FIRST as usize;
+            loop {
+                i -= 1;
+                if i == 0 {
+                    break None;
+                }
+                if B::C[i] == 1.0 {
+                    break Some(i);
+                }
+            }
+        }?;
         let Span { h, y, .. } = &self.span;
         combine(y, *h, B::A[index], self.k, state);
         Some(&self.k[index * y.len()..][..y.len()])

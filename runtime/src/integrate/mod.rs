@@ -47,6 +47,7 @@ use rosenbrock::Rosenbrock;
 use switching::Switching;
 pub(crate) use switching::Turn;
 use tableau::dormand_prince::{Dop853, Dopri5};
+use tableau::hermite;
 use tableau::kutta::{Heun, Merson, Rk4};
 use tableau::tsitouras::Tsit5;
 use workspace::Workspace;
@@ -260,6 +261,18 @@ impl<'w, T: Real> Span<'w, T> {
     fn begin(&mut self, t: f64, y: &[T]) {
         self.t = t;
         self.y.copy_from_slice(y);
+    }
+
+    /// The state at t + θh on the cubic with these derivatives at both ends.
+    fn cubic(&self, [first, last]: [&[T]; 2], theta: f64, inside: &mut [T]) {
+        let [step, at_first, at_last] = hermite(T::from_f64(theta));
+        let h = T::from_f64(self.h);
+        let [at_first, at_last] = [at_first * h, at_last * h];
+        for (i, state) in inside.iter_mut().enumerate() {
+            let y = self.y[i];
+            let moved = step.mul_add(self.end[i] - y, y);
+            *state = at_last.mul_add(last[i], at_first.mul_add(first[i], moved));
+        }
     }
 }
 

@@ -104,69 +104,102 @@ fn misses(nodes: usize, b: &[f64], single: &Matrix, several: &Matrix) -> f64 {
     residuals.iter().fold(0.0, |worst, r| worst.max(r.abs()))
 }
 
+/// What a tableau says, without its type, so that checks are compiled once for all.
+struct Method {
+    stages: usize,
+    all: usize,
+    c: &'static [f64],
+    a: &'static [&'static [f64]],
+    b: &'static [f64],
+    e: [&'static [f64]; 2],
+    last_is_first: bool,
+    estimate: u32,
+    interpolant: usize,
+    weights: fn(f64) -> Vec<f64>,
+    counts: fn(usize) -> bool,
+}
+
+impl Method {
+    fn of<B: Tableau>() -> Self {
+        Method {
+            stages: B::STAGES,
+            all: B::ALL,
+            c: B::C,
+            a: B::A,
+            b: B::B,
+            e: B::E,
+            last_is_first: B::LAST_IS_FIRST,
+            estimate: B::ESTIMATE,
+            interpolant: B::INTERPOLANT as usize,
+            weights: |theta| B::weights(theta).as_ref().to_vec(),
+            counts: B::counts,
+        }
+    }
+}
+
 /// The coefficients of all stages as a square matrix.
-fn matrix<B: Tableau>() -> Matrix {
-    let mut rows = vec![vec![0.0; B::ALL]; B::ALL];
-    for (row, a) in rows.iter_mut().zip(B::A) {
+fn matrix(m: &Method) -> Matrix {
+    let mut rows = vec![vec![0.0; m.all]; m.all];
+    for (row, a) in rows.iter_mut().zip(m.a) {
         row[..a.len()].copy_from_slice(a);
     }
     rows
 }
 
-fn padded<B: Tableau>(weights: &[f64]) -> Vec<f64> {
-    let mut all = vec![0.0; B::ALL];
+fn padded(m: &Method, weights: &[f64]) -> Vec<f64> {
+    let mut all = vec![0.0; m.all];
     all[..weights.len()].copy_from_slice(weights);
     all
 }
 
 /// Checks the nodes and the orders of the result, the embedded result and the interpolant, and that these orders are not
 /// higher.
-fn check<B: Tableau>(order: usize) {
-    let a = matrix::<B>();
-    for (i, c) in B::C.iter().enumerate() {
+fn check(m: &Method, order: usize) {
+    let a = matrix(m);
+    for (i, c) in m.c.iter().enumerate() {
         let sum: f64 = a[i].iter().sum();
         assert!((sum - c).abs() < ROUNDING, "node {i}: {sum} and {c}");
     }
-    let b = padded::<B>(B::B);
+    let b = padded(m, m.b);
     assert_order(order, &b, &a, &a, 1.0);
     assert!(misses(order + 1, &b, &a, &a) > 1e-7);
 
-    for estimate in B::E.iter().filter(|weights| !weights.is_empty()) {
+    for estimate in m.e.iter().filter(|weights| !weights.is_empty()) {
         let other: Vec<f64> = b
             .iter()
-            .zip(padded::<B>(estimate))
+            .zip(padded(m, estimate))
             .map(|(b, e)| b - e)
             .collect();
         // a pair of two methods of the same order sees no error
         let embedded = (1..=order).find(|nodes| misses(*nodes, &other, &a, &a) > 1e-7);
         assert!(embedded.is_some());
     }
-    let [first, second] = B::E;
+    let [first, second] = m.e;
     let order_of = |weights: &[f64]| {
         let zero_to = |nodes| {
-            let weights = padded::<B>(weights);
+            let weights = padded(m, weights);
             let sums = residuals(nodes, &weights, &a, &a, 0.0);
             sums.iter().all(|sum| sum.abs() < ROUNDING)
         };
         (1..).find(|nodes| !zero_to(*nodes)).unwrap_or(0) as u32
     };
     match (first.is_empty(), second.is_empty()) {
-        (true, _) => assert_eq!(B::ESTIMATE, 0),
-        (false, true) => assert_eq!(B::ESTIMATE, order_of(first)),
+        (true, _) => assert_eq!(m.estimate, 0),
+        (false, true) => assert_eq!(m.estimate, order_of(first)),
         // e²/ē
-        (false, false) => assert_eq!(B::ESTIMATE, 2 * order_of(first) - order_of(second)),
+        (false, false) => assert_eq!(m.estimate, 2 * order_of(first) - order_of(second)),
     }
 
     for step in 0..=20 {
         let theta = f64::from(step) / 20.0;
-        let weights = B::weights(theta);
-        assert_order(B::INTERPOLANT as usize, weights.as_ref(), &a, &a, theta);
-        for (stage, weight) in weights.as_ref().iter().enumerate() {
-            assert!(B::counts(stage) || *weight == 0.0, "stage {stage} counts");
+        let weights = (m.weights)(theta);
+        assert_order(m.interpolant, &weights, &a, &a, theta);
+        for (stage, weight) in weights.iter().enumerate() {
+            assert!((m.counts)(stage) || *weight == 0.0, "stage {stage} counts");
         }
     }
-    for (weight, expected) in [(0.0, vec![0.0; B::ALL]), (1.0, b)] {
-        for (weight, expected) in B::weights(weight).as_ref().iter().zip(expected) {
+    for (weight, expected) in [(0.0, vec![0.0; m.all]), (1.0, b)] {
+        for (weight, expected) in (m.weights)(weight).iter().zip(expected) {
             assert!((weight - expected).abs() < ROUNDING);
         }
     }
@@ -184,20 +217,20 @@ fn trees_are_as_many_as_they_are() {
 
 #[test]
 fn historical_methods_have_their_orders() {
-    check::<Heun>(2);
-    check::<Rk4>(4);
-    check::<Merson>(4);
+    check(&Method::of::<Heun>(), 2);
+    check(&Method::of::<Rk4>(), 4);
+    check(&Method::of::<Merson>(), 4);
 }
 
 #[test]
 fn pairs_of_order_5_have_their_orders() {
-    check::<Dopri5>(5);
-    check::<Tsit5>(5);
+    check(&Method::of::<Dopri5>(), 5);
+    check(&Method::of::<Tsit5>(), 5);
 }
 
 #[test]
 fn the_method_of_order_8_has_its_orders() {
-    check::<Dop853>(8);
+    check(&Method::of::<Dop853>(), 8);
 }
 
 #[test]
@@ -229,11 +262,11 @@ fn the_rosenbrock_method_has_its_orders() {
 }
 
 /// The farthest point of |R(z)| = 1 in the left half plane, R(z) = 1 + z bᵀ (1 − z A)⁻¹ 1 = 1 + Σ z^(k+1) bᵀ A^k 1.
-fn farthest<B: Tableau>() -> f64 {
-    let (a, mut stages) = (matrix::<B>(), vec![1.0; B::ALL]);
-    let b = padded::<B>(B::B);
+fn farthest(m: &Method) -> f64 {
+    let (a, mut stages) = (matrix(m), vec![1.0; m.all]);
+    let b = padded(m, m.b);
     let mut polynomial = vec![1.0];
-    for _ in 0..B::STAGES {
+    for _ in 0..m.stages {
         polynomial.push(b.iter().zip(&stages).map(|(b, x)| b * x).sum());
         let times = |row: &Vec<f64>| row.iter().zip(&stages).map(|(a, x)| a * x).sum();
         stages = a.iter().map(times).collect();
@@ -274,59 +307,59 @@ fn limits_of_stability_are_those_of_the_polynomials() {
             "{formula}: {found}"
         );
     };
-    close(farthest::<Heun>(), Formula::Heun);
-    close(farthest::<Rk4>(), Formula::Rk4);
-    close(farthest::<Merson>(), Formula::Merson);
-    close(farthest::<Dopri5>(), Formula::Dopri5);
-    close(farthest::<Tsit5>(), Formula::Tsit5);
-    close(farthest::<Dop853>(), Formula::Dop853);
+    close(farthest(&Method::of::<Heun>()), Formula::Heun);
+    close(farthest(&Method::of::<Rk4>()), Formula::Rk4);
+    close(farthest(&Method::of::<Merson>()), Formula::Merson);
+    close(farthest(&Method::of::<Dopri5>()), Formula::Dopri5);
+    close(farthest(&Method::of::<Tsit5>()), Formula::Tsit5);
+    close(farthest(&Method::of::<Dop853>()), Formula::Dop853);
 }
 
 /// (|R(iy)|, |P(iy)|) of an undamped oscillation: what a step makes of it, and how far the last state before the end for the time of the end is from
 /// the end.
-fn swings<B: Tableau>(y: f64) -> [f64; 2] {
+fn swings(m: &Method, y: f64) -> [f64; 2] {
     let times = |(re, im): (f64, f64)| (-y * im, y * re);
     let mut rates: Vec<(f64, f64)> = Vec::new();
     let state = |rates: &[(f64, f64)], weights: &[f64]| {
         let sum = rates.iter().zip(weights);
         sum.fold((1.0, 0.0), |(re, im), (k, w)| (re + w * k.0, im + w * k.1))
     };
-    let before = B::STAGES - usize::from(B::LAST_IS_FIRST);
-    let near = (1..before).rev().find(|&i| B::C[i] == 1.0);
+    let before = m.stages - usize::from(m.last_is_first);
+    let near = (1..before).rev().find(|&i| m.c[i] == 1.0);
     let near = near.expect("a stage at the end");
     let mut other = (0.0, 0.0);
-    for i in 0..B::STAGES {
-        let stage = state(&rates, B::A[i]);
+    for i in 0..m.stages {
+        let stage = state(&rates, m.a[i]);
         if i == near {
             other = stage;
         }
         rates.push(times(stage));
     }
-    let end = state(&rates, B::B);
+    let end = state(&rates, m.b);
     [end.0.hypot(end.1), (end.0 - other.0).hypot(end.1 - other.1)]
 }
 
 #[test]
 fn oscillations_grow_from_the_limits_stated() {
-    fn compare<B: Tableau>(formula: Formula) {
+    fn compare(m: &Method, formula: Formula) {
         let [limit, polynomial] = limits(formula).expect("a method with two stages at the end");
         let mut places = (1..100_000).map(|i| 1e-4 * f64::from(i));
-        let found = places.find(|y| swings::<B>(*y)[0] > 1.0 + 1e-5);
+        let found = places.find(|y| swings(m, *y)[0] > 1.0 + 1e-5);
         let found = found.expect("an explicit method").min(std::f64::consts::PI);
         // found on a grid of 0.0001, stated with three digits
         let close = |stated: f64, found: f64| (stated / found - 1.0).abs() < 5e-3;
         assert!(close(limit, found), "{formula}: {limit}, found {found}");
-        let [_, apart] = swings::<B>(limit);
+        let [_, apart] = swings(m, limit);
         assert!(
             close(polynomial, apart),
             "{formula}: {polynomial}, found {apart}"
         );
     }
-    compare::<Heun>(Formula::Heun);
-    compare::<Merson>(Formula::Merson);
-    compare::<Dopri5>(Formula::Dopri5);
-    compare::<Tsit5>(Formula::Tsit5);
-    compare::<Dop853>(Formula::Dop853);
+    compare(&Method::of::<Heun>(), Formula::Heun);
+    compare(&Method::of::<Merson>(), Formula::Merson);
+    compare(&Method::of::<Dopri5>(), Formula::Dopri5);
+    compare(&Method::of::<Tsit5>(), Formula::Tsit5);
+    compare(&Method::of::<Dop853>(), Formula::Dop853);
     for formula in Formula::ALL {
         let adaptive = formula.estimates_error() && formula != Formula::Rodas5;
         assert_eq!(limits(formula).is_some(), adaptive, "{formula}");

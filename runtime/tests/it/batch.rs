@@ -229,19 +229,35 @@ fn adaptive() -> Settings {
     settings(Pace::Adaptive(Tolerances::of(TOLERANCE)))
 }
 
-struct Values<'a>(&'a Settings, Vec<[f64; 4]>);
+/// A batch of the bumper in registers.
+struct Batch<'a, F>(&'a Settings, &'a mut Rows<F>);
 
-impl<F: Real> OfAnyWidth<F> for Values<'_> {
-    type Output = Vec<(Ended, Vec<f64>)>;
-    fn run<T: Several<One = F>>(self) -> Self::Output {
-        let rows = self.1.into_iter();
-        let mut rows = Rows::new(rows.map(|row| row.map(F::from_f64)).collect());
-        run::<T>(&BUMPER, self.0, &mut rows);
-        let as_doubles = |values: Vec<F>| values.into_iter().map(F::to_f64).collect();
-        let runs = rows.all().into_iter();
-        runs.map(|(ended, values)| (ended, as_doubles(values)))
-            .collect()
+impl<F: Real> OfAnyWidth<F> for Batch<'_, F> {
+    type Output = ();
+    fn run<T: Several<One = F>>(self) {
+        run::<T>(&BUMPER, self.0, self.1);
     }
+}
+
+type Runs = Vec<(Ended, Vec<f64>)>;
+
+/// What becomes of these rows; `None` without registers of this width.
+fn doubles(width: Width, settings: &Settings, all: Vec<[f64; 4]>) -> Option<Runs> {
+    let mut rows = Rows::new(all);
+    with_compiled(width, Batch(settings, &mut rows))?;
+    Some(rows.all())
+}
+
+/// The same in singles.
+fn singles(width: Width, settings: &Settings, all: Vec<[f64; 4]>) -> Option<Runs> {
+    let single = |row: &[f64; 4]| row.map(|x| x as f32);
+    let mut rows = Rows::new(all.iter().map(single).collect());
+    with_compiled_singles(width, Batch(settings, &mut rows))?;
+    let mut runs = Runs::new();
+    for (ended, values) in rows.all() {
+        runs.push((ended, values.iter().map(|x| f64::from(*x)).collect()));
+    }
+    Some(runs)
 }
 
 /// Runs without parameters and outputs.
@@ -342,8 +358,6 @@ fn alone(row: [f64; 4], tolerance: f64) -> Vec<f64> {
     samples.concat()
 }
 
-type Runs = Vec<(Ended, Vec<f64>)>;
-
 /// Each scenario in a batch of its own.
 fn one_by_one(batch: &dyn Fn(Vec<[f64; 4]>) -> Option<Runs>) -> Option<Runs> {
     let each = scenarios(37).into_iter();
@@ -355,18 +369,18 @@ fn one_by_one(batch: &dyn Fn(Vec<[f64; 4]>) -> Option<Runs>) -> Option<Runs> {
 fn lanes_equal_scalar() {
     let steps = || Method::ALL.into_iter().map(|method| fixed(method, 1e-3));
     for settings in steps().chain([adaptive()]) {
-        let alone = one_by_one(&|rows| with_compiled(Width::One, Values(&settings, rows)));
+        let alone = one_by_one(&|rows| doubles(Width::One, &settings, rows));
         for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
-            let abreast = with_compiled(width, Values(&settings, scenarios(37)));
+            let abreast = doubles(width, &settings, scenarios(37));
             if let (Some(abreast), Some(alone)) = (abreast, &alone) {
                 assert_eq!(bits(&abreast), bits(alone), "{width:?}");
             }
         }
     }
     for settings in steps().chain([coarse()]) {
-        let alone = one_by_one(&|rows| with_compiled_singles(Width::One, Values(&settings, rows)));
+        let alone = one_by_one(&|rows| singles(Width::One, &settings, rows));
         for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
-            let abreast = with_compiled_singles(width, Values(&settings, scenarios(37)));
+            let abreast = singles(width, &settings, scenarios(37));
             if let (Some(abreast), Some(alone)) = (abreast, &alone) {
                 assert_eq!(bits(&abreast), bits(alone), "singles, {width:?}");
             }
@@ -376,9 +390,9 @@ fn lanes_equal_scalar() {
 
 #[test]
 fn a_run_is_the_same_whatever_its_neighbours_do() {
-    let all = with_compiled(Width::widest(), Values(&adaptive(), scenarios(37))).unwrap();
+    let all = doubles(Width::widest(), &adaptive(), scenarios(37)).unwrap();
     for (i, row) in scenarios(37).into_iter().enumerate() {
-        let one = with_compiled(Width::widest(), Values(&adaptive(), vec![row])).unwrap();
+        let one = doubles(Width::widest(), &adaptive(), vec![row]).unwrap();
         assert_eq!(bits(&one), bits(&all[i..=i]));
     }
 }
@@ -389,8 +403,8 @@ fn a_lane_that_fails_is_told_and_disturbs_nobody() {
     rows[3][1] = -1.0;
     rows[10][0] = f64::NAN;
     rows[11][3] = f64::INFINITY;
-    let runs = with_compiled(Width::widest(), Values(&adaptive(), rows)).unwrap();
-    let good = with_compiled(Width::widest(), Values(&adaptive(), scenarios(24))).unwrap();
+    let runs = doubles(Width::widest(), &adaptive(), rows).unwrap();
+    let good = doubles(Width::widest(), &adaptive(), scenarios(24)).unwrap();
     for (i, (run, good)) in runs.iter().zip(&good).enumerate() {
         match i {
             3 | 10 | 11 => assert_eq!(run.0.status, Status::Refused),
@@ -412,7 +426,7 @@ fn a_limit_on_steps_is_kept() {
         energy_limit: bryant_runtime::simulate::ENERGY_LIMIT,
         ..adaptive()
     };
-    for (ended, values) in with_compiled(Width::widest(), Values(&few, scenarios(9))).unwrap() {
+    for (ended, values) in doubles(Width::widest(), &few, scenarios(9)).unwrap() {
         assert_eq!(ended.status, Status::TooManySteps);
         assert_eq!(ended.steps + ended.rejected, 20);
         assert!(ended.t > 0.0 && ended.t < 0.4);
@@ -422,7 +436,7 @@ fn a_limit_on_steps_is_kept() {
 
 #[test]
 fn runs_are_those_of_the_ordinary_time_loop() {
-    let runs = with_compiled(Width::widest(), Values(&adaptive(), scenarios(24))).unwrap();
+    let runs = doubles(Width::widest(), &adaptive(), scenarios(24)).unwrap();
     for (row, (ended, values)) in scenarios(24).into_iter().zip(&runs) {
         assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
         // either errs by at most a tolerance a step, which the motion does not amplify: two or three periods of an oscillator, whose
@@ -449,8 +463,8 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
     let cases = all.flat_map(|method| [(method, 0.01, 40), (method, 0.04, 3 + 8)]);
     for (method, step, steps) in cases {
         let settings = fixed(method, step);
-        let doubles = with_compiled(Width::Plain, Values(&settings, vec![row]));
-        let singles = with_compiled_singles(Width::Plain, Values(&settings, vec![row]));
+        let doubles = doubles(Width::Plain, &settings, vec![row]);
+        let singles = singles(Width::Plain, &settings, vec![row]);
         let both = [(doubles, f64::EPSILON), (singles, f64::from(f32::EPSILON))];
         for (runs, epsilon) in both {
             let (ended, values) = runs.unwrap().remove(0);
@@ -471,11 +485,11 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
 
 #[test]
 fn singles_keep_their_tolerance() {
-    let runs = with_compiled_singles(Width::widest(), Values(&coarse(), scenarios(24))).unwrap();
+    let runs = singles(Width::widest(), &coarse(), scenarios(24)).unwrap();
     for (row, (ended, values)) in scenarios(24).into_iter().zip(&runs) {
         assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
         // steps that rounding makes shorter would be many more
-        let of_doubles = with_compiled(Width::widest(), Values(&coarse(), vec![row])).unwrap();
+        let of_doubles = doubles(Width::widest(), &coarse(), vec![row]).unwrap();
         let doubles = of_doubles[0].0.steps + of_doubles[0].0.rejected;
         let singles = ended.steps + ended.rejected;
         assert!(singles <= doubles + doubles / 5 + 2, "{singles} {doubles}");
@@ -492,8 +506,8 @@ fn singles_keep_their_tolerance() {
 #[test]
 fn singles_differ_from_doubles_by_rounding_alone() {
     let fixed = fixed(Method::Rk4, 1e-3);
-    let singles = with_compiled_singles(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
-    let doubles = with_compiled(Width::widest(), Values(&fixed, scenarios(24))).unwrap();
+    let singles = singles(Width::widest(), &fixed, scenarios(24)).unwrap();
+    let doubles = doubles(Width::widest(), &fixed, scenarios(24)).unwrap();
     for (i, (single, double)) in singles.iter().zip(&doubles).enumerate() {
         assert!(single.0.steps.abs_diff(double.0.steps) <= 1, "{i}");
         // a few roundings a step of places and velocities up to 2
@@ -511,7 +525,7 @@ fn singles_differ_from_doubles_by_rounding_alone() {
 #[test]
 fn an_error_that_singles_cannot_keep_is_told() {
     // 10⁻⁸ of a force is less than singles tell apart
-    let runs = with_compiled_singles(Width::widest(), Values(&adaptive(), scenarios(9))).unwrap();
+    let runs = singles(Width::widest(), &adaptive(), scenarios(9)).unwrap();
     for (ended, values) in runs {
         let done = ended.status == Status::Done;
         assert!(done || ended.status == Status::StepTooSmall, "{ended:?}");
@@ -694,14 +708,12 @@ fn many_fixed_steps_in_singles_are_told_to_round() {
     assert!((place / exact - 1.0).abs() <= row.error, "{place} {row:?}");
 }
 
-struct Slopes<'a>(&'a Settings, Vec<[Dual<f64>; 4]>);
+struct Slopes<'a>(&'a Settings, &'a mut Rows<Dual<f64>>);
 
 impl OfAnyWidth for Slopes<'_> {
-    type Output = Vec<(Ended, Vec<Dual<f64>>)>;
-    fn run<T: Several<One = f64>>(self) -> Self::Output {
-        let mut rows = Rows::new(self.1);
-        run::<Dual<T>>(&BUMPER, self.0, &mut rows);
-        rows.all()
+    type Output = ();
+    fn run<T: Several<One = f64>>(self) {
+        run::<Dual<T>>(&BUMPER, self.0, self.1);
     }
 }
 
@@ -721,7 +733,9 @@ fn derivatives_are_those_of_differences_across_events() {
             })
         })
         .collect();
-    let runs = with_compiled(Width::widest(), Slopes(&located, rows)).unwrap();
+    let mut rows = Rows::new(rows);
+    with_compiled(Width::widest(), Slopes(&located, &mut rows)).unwrap();
+    let runs = rows.all();
     for (along, (ended, values)) in runs.iter().enumerate() {
         assert_eq!(ended.status, Status::Done);
         let moved = |by: f64| {
@@ -811,25 +825,16 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
     }
 }
 
-struct Impatient(u64);
-
-impl OfAnyWidth<f64> for Impatient {
-    type Output = Vec<Ended>;
-    fn run<T: Several<One = f64>>(self) -> Self::Output {
-        let mut rows = Rows::new(scenarios(13));
-        rows.patience = self.0;
-        run::<T>(&BUMPER, &fixed(Method::Rk4, 1e-4), &mut rows);
-        rows.all().into_iter().map(|(ended, _)| ended).collect()
-    }
-}
-
 #[test]
 fn what_is_given_up_ends_there_and_nothing_else_does() {
     // 4000 steps or some more, asked at every 1024th
     for (patience, steps) in [(100, 1024), (1024, 2048), (3000, 3072), (4096, u32::MAX)] {
         for width in Width::ALL.into_iter().filter(|width| width.there()) {
-            let ended = with_compiled(width, Impatient(patience)).expect("registers");
-            for (scenario, ended) in ended.iter().enumerate() {
+            let mut rows = Rows::new(scenarios(13));
+            rows.patience = patience;
+            let settings = fixed(Method::Rk4, 1e-4);
+            with_compiled(width, Batch(&settings, &mut rows)).expect("registers");
+            for (scenario, (ended, _)) in rows.all().iter().enumerate() {
                 if scenario % 2 == 1 && steps < u32::MAX {
                     assert_eq!((ended.status, ended.steps), (Status::TooManySteps, steps));
                 } else {
