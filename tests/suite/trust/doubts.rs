@@ -1217,8 +1217,8 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         include_str!("doubts.rs"),
         include_str!("refusals.rs"),
         source!("tests/suite/sweep/reasons.rs"),
-        source!("runtime/src/simulate/tests.rs"),
-        source!("runtime/src/program/mod.rs"),
+        source!("runtime/tests/it/simulate.rs"),
+        source!("runtime/tests/it/program.rs"),
         source!("src/command/error_report.rs"),
         source!("engine/tests/it/onset.rs"),
     ];
