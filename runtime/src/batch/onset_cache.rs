@@ -213,20 +213,20 @@ mod tests {
         (hunt.best(), asked)
     }
 
+    /// The gap of an onset at one of several places.
+    type GapAt<'a> = &'a dyn Fn(usize, usize) -> f64;
+    /// A number of a lane at a quarter: quarter, number, lane.
+    type Number<'a> = &'a dyn Fn(usize, usize, usize) -> f64;
+
     /// A step of each lane in the cache: what its [`OnsetCache::begin`] and [`OnsetCache::add`] take, from functions of
     /// numbers, in registers of a type. All else is compiled once.
     struct Registers {
         lanes: usize,
-        /// The number `entry` of a lane at each quarter.
-        begin: fn(&mut OnsetCache, &dyn Fn(usize, usize, usize) -> f64),
-        /// The gap `onset` at each of the places.
-        add: fn(&mut OnsetCache, &Places<f64>, &dyn Fn(usize, usize) -> f64),
+        begin: fn(&mut OnsetCache, Number),
+        add: fn(&mut OnsetCache, &Places<f64>, GapAt),
     }
 
-    fn begin<T: Several<One = f64>>(
-        cache: &mut OnsetCache,
-        number: &dyn Fn(usize, usize, usize) -> f64,
-    ) {
+    fn begin<T: Several<One = f64>>(cache: &mut OnsetCache, number: Number) {
         let mut values = Vec::new();
         for quarter in 0..=QUARTERS {
             let mut all = vec![T::from_f64(0.0); 2 * ONSETS];
@@ -238,11 +238,7 @@ mod tests {
         cache.begin(&values);
     }
 
-    fn add<T: Several<One = f64>>(
-        cache: &mut OnsetCache,
-        places: &Places<f64>,
-        gap: &dyn Fn(usize, usize) -> f64,
-    ) {
+    fn add<T: Several<One = f64>>(cache: &mut OnsetCache, places: &Places<f64>, gap: GapAt) {
         let mut all = [T::from_f64(0.0); ONSETS];
         for (onset, value) in all.iter_mut().enumerate() {
             *value = T::of_lanes(&by_index(0.0, |place| gap(place, onset)));

@@ -76,14 +76,14 @@ fn each<const N: usize, const A: usize, R: Copy>(
     let of = |lane: usize| by_index(0.0, |i| lanes[i][lane]);
     let bits = |lane: usize| by_index::<u64, A>(0, |i| lanes[i][lane].to_bits());
     let first = bits(0);
-    let mut all = [function(of(0)); N];
+    let result = function(of(0));
     if (1..N).all(|lane| bits(lane) == first) {
-        return all;
+        return [result; N];
     }
-    for lane in 1..N {
-        all[lane] = function(of(lane));
-    }
-    all
+    by_index(result, |lane| match lane {
+        0 => result,
+        _ => function(of(lane)),
+    })
 }
 
 /// An operator of each lane.

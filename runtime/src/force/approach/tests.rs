@@ -2,8 +2,8 @@
 
 use super::space::{Quadric, approach, dot, overlap, touch};
 use super::{plane, space};
-use crate::real::Array2;
 use crate::real::lanes::{OfAnyWidth, with_width};
+use crate::real::{Array2, by_index};
 use crate::{DoubleDouble, Dual, Real, Several, Task, Width};
 
 type Vector = [f64; 3];
@@ -622,19 +622,21 @@ impl OfAnyWidth for Beside<'_> {
                 }
                 all
             };
-            let space: [T; 15] = std::array::from_fn(|i| put(&|case| case.space::<f64>()[i]));
-            let plane: [T; 8] = std::array::from_fn(|i| put(&|case| case.plane::<f64>()[i]));
-            let results = [false, true].map(|early| {
-                T::dispatch(Call {
+            let nought = T::from_f64(0.0);
+            let space = by_index(nought, |i| put(&|case| case.space::<f64>()[i]));
+            let plane = by_index(nought, |i| put(&|case| case.plane::<f64>()[i]));
+            let mut results = [nought; 24];
+            for (early, results) in [false, true].into_iter().zip(results.chunks_mut(12)) {
+                let (space, plane) = T::dispatch(Call {
                     space,
                     plane,
                     early,
-                })
-            });
+                });
+                results[..7].copy_from_slice(&space);
+                results[7..].copy_from_slice(&plane);
+            }
             for lane in 0..cases.len() {
-                let all = results.iter().flat_map(|(s, p)| s.iter().chain(p));
-                let bits: Vec<u64> = all.map(|x| x.lane(lane).to_bits()).collect();
-                found.push(bits.try_into().expect("as many results"));
+                found.push(by_index(0, |i: usize| results[i].lane(lane).to_bits()));
             }
         }
         found
