@@ -278,7 +278,8 @@ pub(crate) fn by_index<R: Copy, const N: usize>(
     all
 }
 
-/// An array of what a function gives for each entry, from the first to the last: a plain loop, as [`by_index`].
+/// An array of what a small function gives for each entry, from the first to the last: a plain loop, as [`by_index`]. It
+/// calls the function at two places, so a long one would not be inlined.
 #[inline(always)]
 pub(crate) fn mapped<A: Copy, R: Copy, const N: usize>(
     entries: [A; N],

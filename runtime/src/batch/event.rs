@@ -2,7 +2,7 @@
 //! single run, with selections in place of branches.
 
 use super::step::Step;
-use crate::real::{Mask, Several, mapped};
+use crate::real::{Mask, Several};
 use crate::simulate::excursion::Excursion;
 use crate::simulate::{Bracket, Course, WIDTH, Zero, change, opposite};
 use crate::{Dynamics, Real};
@@ -153,11 +153,16 @@ impl<T: Several> Probe<'_, T> {
     ) -> T::Mask {
         let nought = T::Part::from_f64(0.0);
         let far = (other - T::Part::from_f64(FAR)).max(nought).min(same);
-        let [near, far] = mapped([same, far], |part| {
-            let value = self.opposite(before, index, T::of_part(part));
-            there.part(0) - value.part(0)
-        });
+        let near = self.change_from(before, index, same, there);
+        let far = self.change_from(before, index, far, there);
         far.lt(T::Part::from_f64(MORE) * near)
+    }
+
+    /// How much the function `index` changes from a part of the step to where its value is `there`.
+    #[inline(always)]
+    fn change_from(&mut self, before: &[T], index: T::Part, part: T::Part, there: T) -> T::Part {
+        let value = self.opposite(before, index, T::of_part(part));
+        there.part(0) - value.part(0)
     }
 }
 
