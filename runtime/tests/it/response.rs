@@ -60,8 +60,11 @@ fn response<T: Real>(response: Response, samples: &[T], every: f64) -> T {
 
 /// A function of time, sampled from 0 to `end`.
 fn sampled(end: f64, every: f64, signal: impl Fn(f64) -> f64) -> Vec<f64> {
-    let count = (end / every).round() as usize;
-    (0..=count).map(|i| signal(i as f64 * every)).collect()
+    fn collect(end: f64, every: f64, signal: &dyn Fn(f64) -> f64) -> Vec<f64> {
+        let count = (end / every).round() as usize;
+        (0..=count).map(|i| signal(i as f64 * every)).collect()
+    }
+    collect(end, every, &signal)
 }
 
 /// A pulse of `amplitude` \[g\] between 0 and `length` \[s\], in m/s².

@@ -72,8 +72,8 @@ fn compare<T: Real, M: Model<T>>(model: &M, epsilon: f64) {
 fn compare_with<T: Real, M: Model<T>>(
     model: &M,
     epsilon: f64,
-    march: impl Fn(&M, T, T, u32, &mut M::State) -> T,
-    textbook: impl Fn(&M, f64, u32, &mut M::State),
+    march: fn(&M, T, T, u32, &mut M::State) -> T,
+    textbook: fn(&M, f64, u32, &mut M::State),
 ) {
     // a power of two, so that it and its half are exact in every scalar
     let (h, steps) = (1.0 / 32.0, 60);
