@@ -22,7 +22,7 @@
 //! | [`results`], [`table`] | all results; their tables |
 //! | [`summary`], [`picture`], [`report`] | summaries of the results |
 //! | [`quantity`] | numbers with units |
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![warn(clippy::disallowed_methods)]
 
 pub mod criteria;
 pub mod design;

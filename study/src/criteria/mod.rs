@@ -35,11 +35,15 @@ pub struct Criterion {
     /// Filter class of its signals by SAE J211-1, if they are filtered; a regulation may have another, see
     /// [`Criterion::class`].
     filter: Option<Class>,
-    measure: Measure,
+    // Public for the tests in `tests/it`, which are compiled apart from this crate.
+    #[doc(hidden)]
+    pub measure: Measure,
 }
 
 /// How a criterion is computed from signals, which are named by their places.
-enum Measure {
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub enum Measure {
     /// A response of a resultant acceleration.
     Resultant(&'static str, What),
     /// A response of one signal.

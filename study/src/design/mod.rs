@@ -17,7 +17,9 @@ use sobol::Sobol;
 
 /// Streams of random numbers. The index of the parameter is added in the lower bits.
 const JITTER: u64 = 1 << 32;
-const PERMUTATION: u64 = 2 << 32;
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub const PERMUTATION: u64 = 2 << 32;
 const INDEPENDENT: u64 = 3 << 32;
 
 /// Number of parts of a stratum. A point of a Latin hypercube is in the middle of one of them. With so few parts,
@@ -161,6 +163,3 @@ impl<'a> Sampler<'a> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -141,6 +141,3 @@ impl StudyFile {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

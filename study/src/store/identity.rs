@@ -67,19 +67,9 @@ impl Identity {
 }
 
 /// Rows of a block: a power of two that depends only on the number of rows.
-fn block(rows: u64) -> u64 {
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn block(rows: u64) -> u64 {
     let wanted = rows.div_ceil(BLOCKS).next_power_of_two();
     wanted.clamp(SMALLEST_BLOCK, LARGEST_BLOCK)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn blocks_are_many_but_not_small() {
-        assert_eq!([1, 1000, 4096].map(block), [16; 3]);
-        assert_eq!(block(100_000), 512);
-        assert_eq!([1_000_000, 1_000_000_000].map(block), [4096; 2]);
-    }
 }

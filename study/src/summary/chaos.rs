@@ -99,17 +99,19 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
 }
 
 /// Products of polynomials, by their total degree.
-struct Basis {
+// Public for the tests in `tests/it`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub struct Basis {
     /// For each term, the degree in each parameter.
-    terms: Vec<Vec<usize>>,
+    pub terms: Vec<Vec<usize>>,
     /// Number of terms up to each total degree.
-    ends: Vec<usize>,
+    pub ends: Vec<usize>,
 }
 
 impl Basis {
     /// The terms of all total degrees up to the largest for which there are at most `most` terms; `None` if the first
     /// degree already has more. `caps` are the highest degrees of each parameter alone.
-    fn new(caps: &[usize], most: usize) -> Option<Basis> {
+    pub fn new(caps: &[usize], most: usize) -> Option<Basis> {
         let mut basis = Basis {
             terms: vec![vec![0; caps.len()]],
             ends: vec![1],
@@ -144,7 +146,7 @@ impl Basis {
     }
 
     /// Removes some terms, given in increasing order.
-    fn remove(&mut self, lost: &[usize]) {
+    pub fn remove(&mut self, lost: &[usize]) {
         let before = |end: &usize| lost.partition_point(|term| term < end);
         self.ends = self.ends.iter().map(|end| end - before(end)).collect();
         for term in lost.iter().rev() {
@@ -338,37 +340,4 @@ fn jackknife(
             .map(|p| [half(p, 0), half(p, 1)])
             .collect(),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn terms_are_counted_by_binomials() {
-        // there are C(d + p, p) terms up to degree p
-        let basis = Basis::new(&[HIGHEST; 3], 60).unwrap();
-        assert_eq!(basis.ends, [1, 4, 10, 20, 35, 56]);
-        let mut terms = basis.terms.clone();
-        terms.sort();
-        terms.dedup();
-        assert_eq!(terms.len(), 56);
-        assert!(Basis::new(&[HIGHEST; 60], 60).is_none());
-    }
-
-    #[test]
-    fn no_parameter_has_more_terms_than_functions() {
-        // 3, 1 and 2 levels: (1, a, a²) × (1, c)
-        let mut basis = Basis::new(&[2, 0, 1], 300).unwrap();
-        assert_eq!(basis.ends, [1, 3, 5, 6]);
-        assert!(
-            basis
-                .terms
-                .iter()
-                .all(|t| t[0] <= 2 && t[1] == 0 && t[2] <= 1)
-        );
-        basis.remove(&[1, 4]);
-        assert_eq!(basis.ends, [1, 2, 3, 4]);
-        assert!(Basis::new(&[0, 0], 300).is_none());
-    }
 }

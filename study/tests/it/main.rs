@@ -5,3 +5,4 @@ mod killed;
 mod reference;
 mod running;
 mod summary;
+mod units;

@@ -1,12 +1,15 @@
 //! Study files: their meaning, and the messages about invalid files.
 
-use super::*;
-use crate::distribution::Distribution;
-use crate::facts::{OutputFact, ParameterFact, RunFact};
-use crate::hash;
-use crate::response::What;
-use crate::store::identity::{Identity, Program};
-use crate::study::{Listed, Method, Plan, RandomDesign, RunSettings, TableKind};
+use bryant_generator::Diagnostics;
+use bryant_study::design::Sampler;
+use bryant_study::distribution::Distribution;
+use bryant_study::facts::{ModelFacts, OutputFact, ParameterFact, RunFact};
+use bryant_study::file::StudyFile;
+use bryant_study::hash;
+use bryant_study::response::What;
+use bryant_study::store::identity::{Identity, Program};
+use bryant_study::study::{Listed, Method, Plan, RandomDesign, RunSettings, Study, TableKind};
+use std::path::Path;
 
 fn facts() -> ModelFacts {
     let parameter = |name: &str, unit: &str, default, min, max| ParameterFact {
@@ -788,7 +791,7 @@ fn mangled_studies_are_studies_or_errors_with_a_place() {
         match resolve(&text) {
             Ok(study) => {
                 sound += 1;
-                let sampler = crate::design::Sampler::new(&study).unwrap();
+                let sampler = Sampler::new(&study).unwrap();
                 let mut values = vec![0.0; study.varied.len()];
                 for row in [0, study.rows - 1] {
                     sampler.values(row, &mut values);

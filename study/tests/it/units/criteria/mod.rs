@@ -1,0 +1,3 @@
+mod choice;
+mod limits;
+mod places;

@@ -1,0 +1,6 @@
+mod chaos;
+mod errors;
+mod family;
+mod moments;
+mod sample;
+mod text;
