@@ -6,9 +6,15 @@
 //! view [stays with](Scene::followed). All nodes are below one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
 
 mod file;
-mod plate;
-mod shape;
-mod turn;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod plate;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod shape;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod turn;
 
 use crate::pose::{Frame, Vec3, cross, quaternion};
 use crate::scene::{Kind, Scene};

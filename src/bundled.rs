@@ -71,19 +71,3 @@ pub fn scene(bundled: &Bundled) -> Result<Scene, Diagnostics> {
     let loader = |path: &Path| file(path).map(str::to_owned).ok_or_else(missing);
     bryant_generator::read_scene_str(bundled.file, bundled.yaml, &loader)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_model_is_found_by_its_name() {
-        assert!(!all().is_empty());
-        for bundled in all() {
-            let scene = scene(bundled).unwrap();
-            assert_eq!(scene.model.name, bundled.name);
-            assert!(find(bundled.name).is_some());
-            assert!(scene.read.iter().all(|path| file(path).is_some()));
-        }
-    }
-}

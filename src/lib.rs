@@ -54,7 +54,7 @@
 //! print!("{}", recording.table.text(Default::default()));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
-#![cfg_attr(not(test), warn(clippy::disallowed_methods))]
+#![warn(clippy::disallowed_methods)]
 
 /// Version of the program, with the commit that it was built from.
 pub const VERSION: &str = concat!(
@@ -89,7 +89,9 @@ pub mod process;
 pub mod report;
 pub mod scene;
 pub mod settling;
-mod signature;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod signature;
 pub mod simulation;
 pub mod stability;
 mod state_file;

@@ -103,17 +103,23 @@ impl WithoutCharts {
 
 /// Angles are given in chart 1 if the sine of the middle angle in chart 0 exceeds this, the same limit at which runs
 /// change charts.
-const CHANGE: f64 = 0.8;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub const CHANGE: f64 = 0.8;
 
 /// The unit quaternion, and the angular velocity in absolute axes, for Bryant angles and their rates in a chart.
-pub(crate) fn without_chart(angles: [f64; 3], rates: [f64; 3], chart: f64) -> ([f64; 4], [f64; 3]) {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn without_chart(angles: [f64; 3], rates: [f64; 3], chart: f64) -> ([f64; 4], [f64; 3]) {
     let [first, second] = [0, 1].map(|i| libm::sincos(angles[i]));
     (quaternion(angles, chart), omega(first, second, rates))
 }
 
 /// The Bryant angles, their rates and their chart for a unit quaternion and an angular velocity in absolute axes: the
 /// inverse of [`without_chart`].
-pub(crate) fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64; 3], f64) {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn in_chart(quaternion: [f64; 4], omega: [f64; 3]) -> ([f64; 3], [f64; 3], f64) {
     let a = rotation(&quaternion);
     let (r, chart) = match a[0][2].abs() > CHANGE {
         // without the last rotation by −90° about y: the columns of A are (r₃, r₂, −r₁)
@@ -150,120 +156,4 @@ fn quaternion(angles: [f64; 3], chart: f64) -> [f64; 4] {
 /// ω = W φ̇ in absolute axes, in any chart: the columns of W are e_x, Rx e_y and Rx Ry e_z.
 fn omega((s1, c1): (f64, f64), (s2, c2): (f64, f64), [d1, d2, d3]: [f64; 3]) -> [f64; 3] {
     [d1 + s2 * d3, c1 * d2 - s1 * c2 * d3, s1 * d2 + c1 * c2 * d3]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::pose::bryant_rotation;
-
-    fn header(coordinates: &[&str], velocities: &[&str], memory: &[&str]) -> Header {
-        let strings = |names: &[&str]| names.iter().map(|n| n.to_string()).collect();
-        Header {
-            name: "top".into(),
-            digest: String::new(),
-            dimension: 3,
-            coordinates: strings(coordinates),
-            velocities: strings(velocities),
-            auxiliaries: vec!["bristle".into()],
-            memory: strings(memory),
-            event_functions: vec![],
-            kinks: vec![],
-            powers: vec![],
-            outputs: vec![],
-            parameters: vec![],
-            duration: 1.0,
-            every: 0.1,
-        }
-    }
-
-    #[test]
-    fn angles_of_both_charts_become_quaternions() {
-        let header = header(
-            &[
-                "top.x",
-                "top.y",
-                "top.z",
-                "top/a.phi1",
-                "top/a.phi2",
-                "top/a.phi3",
-            ],
-            &[
-                "top.vx",
-                "top.vy",
-                "top.vz",
-                "top/a.dphi1",
-                "top/a.dphi2",
-                "top/a.dphi3",
-            ],
-            &["top/a: chart", "contact seat: permanent set"],
-        );
-        let without = WithoutCharts::of(&header);
-        assert_eq!(without.coordinates[2..5], ["top.z", "top/a.qw", "top/a.qx"]);
-        assert_eq!(
-            without.velocities[2..],
-            ["top.vz", "top/a.wx", "top/a.wy", "top/a.wz"]
-        );
-        let angles = [0.4, -0.7, 1.1];
-        for chart in [0.0, 1.0] {
-            let mut state = vec![1.0, 2.0, 3.0];
-            state.extend(angles);
-            state.extend([4.0, 5.0, 6.0, 0.0, 0.0, 2.0, 0.125, chart, 7.0]);
-            let y = without.state(&state);
-            assert_eq!(y.len(), 3 + 4 + 3 + 3 + 3);
-            assert_eq!((&y[..3], &y[7..10]), (&state[..3], &state[6..9]));
-            assert_eq!(y[13..], [0.125, chart, 7.0]);
-            // a quarter of a turn about y takes x to −z and z to x; before that turn, the columns of A are (r₃, r₂, −r₁)
-            let r = bryant_rotation(angles);
-            let expected = match chart {
-                0.0 => r,
-                _ => r.map(|[x, y, z]| [z, y, -x]),
-            };
-            let ours = rotation(&y[3..7]);
-            for (a, b) in ours.iter().flatten().zip(expected.iter().flatten()) {
-                assert!((a - b).abs() < 8.0 * f64::EPSILON, "{ours:?} {expected:?}");
-            }
-            // a rate of φ₃ alone is a rotation about the third axis of R
-            for i in 0..3 {
-                assert!((y[10 + i] - 2.0 * r[i][2]).abs() < 8.0 * f64::EPSILON);
-            }
-        }
-    }
-
-    /// A state in quaternions becomes one in angles, in either chart, and the same again.
-    #[test]
-    fn angles_and_quaternions_convert_both_ways() {
-        for angles in [[0.4, -0.7, 1.1], [2.0, 1.4, -3.0], [0.1, -1.5, 0.2]] {
-            for chart in [0.0, 1.0] {
-                let rates = [2.0, -0.5, 0.25];
-                let (q, w) = without_chart(angles, rates, chart);
-                let (found, of_found, its_chart) = in_chart(q, w);
-                let (again, w_again) = without_chart(found, of_found, its_chart);
-                // q and −q are the same orientation
-                let sign = (0..4).map(|i| q[i] * again[i]).sum::<f64>().signum();
-                for i in 0..4 {
-                    assert!((sign * again[i] - q[i]).abs() < 1e-14, "{angles:?} {chart}");
-                }
-                for i in 0..3 {
-                    assert!((w_again[i] - w[i]).abs() < 1e-13, "{angles:?} {chart}");
-                }
-                // in its chart the middle angle is far from ±90°
-                assert!(found[1].sin().abs() <= CHANGE + 1e-12, "{found:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn other_states_stay() {
-        let header = header(
-            &["top.x", "top/a.phi"],
-            &["top.vx", "top/a.omega"],
-            &["set"],
-        );
-        let without = WithoutCharts::of(&header);
-        let state = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        assert_eq!(without.state(&state), state);
-        assert_eq!(without.q(&state), state[..2]);
-        assert_eq!(without.coordinates, header.coordinates);
-    }
 }

@@ -157,7 +157,7 @@ fn is_own(begin: &[u8], end: &[u8], kind: Kind) -> bool {
 
 /// True if a line is the heading of a table that a run wrote: the first heading is in quotation marks, the others only
 /// if they need them.
-fn is_own_heading(line: &[u8]) -> bool {
+pub fn is_own_heading(line: &[u8]) -> bool {
     let Some(rest) = FIRST_HEADINGS
         .iter()
         .find_map(|first| line.strip_prefix(first.as_bytes()))
@@ -202,7 +202,7 @@ pub fn signed(text: &str) -> String {
 }
 
 /// True if [`signed`] made this text, and it was not changed.
-fn is_signed(bytes: &[u8]) -> bool {
+pub fn is_signed(bytes: &[u8]) -> bool {
     let Some(at) = bytes
         .windows(SIGNED.len())
         .rposition(|w| w == SIGNED.as_bytes())
@@ -216,52 +216,4 @@ fn is_signed(bytes: &[u8]) -> bool {
 fn checksum(bytes: &[u8]) -> String {
     let digest = Sha256::digest(bytes);
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn headings_of_others_are_not_ours() {
-        for own in [
-            "\"time [s]\",a [N]",
-            "\"time [s]\",\"a, b [N]\"",
-            "\"time [s]\"",
-            "\"time [ms]\",a [N]",
-        ] {
-            assert!(is_own_heading(own.as_bytes()), "{own}");
-        }
-        for other in [
-            "time [s],a [N]",
-            "\"time [s]\",\"a [N]\"",
-            "\"time\",a",
-            "data",
-        ] {
-            assert!(!is_own_heading(other.as_bytes()), "{other}");
-        }
-    }
-
-    #[test]
-    fn endings_of_other_formats_contradict() {
-        let contradicts = |kind: Kind, name: &str| kind.contradicts(Path::new(name));
-        assert!(contradicts(Kind::Report, "x.pdf") && contradicts(Kind::Animation, "x.gltf"));
-        assert!(contradicts(Kind::Parquet, "x.CSV") && contradicts(Kind::Table, "a/x.xlsx"));
-        for (kind, name) in [
-            (Kind::Report, "x.HTML"),
-            (Kind::Table, "x"),
-            (Kind::State, "x.v2"),
-        ] {
-            assert!(!contradicts(kind, name), "{name}");
-        }
-    }
-
-    #[test]
-    fn a_text_that_was_changed_is_not_ours_any_more() {
-        let text = signed("model: a\n");
-        assert!(is_signed(text.as_bytes()));
-        assert!(!is_signed(text.replace("model: a", "model: b").as_bytes()));
-        assert!(!is_signed(format!("{text}# mine\n").as_bytes()));
-        assert!(!is_signed(b"model: a\n"));
-    }
 }

@@ -54,7 +54,9 @@ pub struct Recording {
 }
 
 /// Largest number of poses that are kept; no picture needs more.
-const MOST_INSTANTS: usize = 4096;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub const MOST_INSTANTS: usize = 4096;
 
 /// A model that can run jobs, whatever evaluates its equations.
 pub trait Runs {
@@ -159,11 +161,13 @@ impl Recording {
 }
 
 /// Finds out how fast bodies rotate.
-struct Turning {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub struct Turning {
     /// The angular velocities of each system, as indices of the state.
-    systems: Vec<Vec<usize>>,
+    pub systems: Vec<Vec<usize>>,
     /// The largest sum of their magnitudes so far \[rad/s\].
-    fastest: f64,
+    pub fastest: f64,
 }
 
 impl Turning {
@@ -194,7 +198,9 @@ impl Turning {
     }
 }
 
-struct Recorder {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub struct Recorder {
     header: Header,
     without_charts: WithoutCharts,
     times: Vec<f64>,
@@ -208,7 +214,7 @@ struct Recorder {
 }
 
 impl Recorder {
-    fn new(header: Header, turning: Turning, most: usize) -> Self {
+    pub fn new(header: Header, turning: Turning, most: usize) -> Self {
         Self {
             times: Vec::new(),
             outputs: vec![Vec::new(); header.outputs.len()],
@@ -222,7 +228,7 @@ impl Recorder {
         }
     }
 
-    fn add(&mut self, t: f64, state: &[f64], outputs: &[f64]) {
+    pub fn add(&mut self, t: f64, state: &[f64], outputs: &[f64]) {
         let mut instant = self.latest.take().unwrap_or(Instant {
             time: t,
             coordinates: Vec::new(),
@@ -251,7 +257,7 @@ impl Recorder {
         }
     }
 
-    fn finish(mut self, outcome: Outcome, wall: Duration) -> Recording {
+    pub fn finish(mut self, outcome: Outcome, wall: Duration) -> Recording {
         let last_state = self.latest.as_ref().map(|i| i.state.clone());
         if let Some(latest) = self.latest
             && self.instants.last().is_some_and(|i| i.time < latest.time)
@@ -332,77 +338,5 @@ impl Recording {
             }
         }
         chosen
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn header() -> Header {
-        Header {
-            name: "pendulum".into(),
-            digest: String::new(),
-            dimension: 2,
-            coordinates: vec!["a/b.phi".into()],
-            velocities: vec!["a/b.omega".into()],
-            auxiliaries: vec![],
-            memory: vec![],
-            event_functions: vec![],
-            kinks: vec![],
-            powers: vec![],
-            outputs: Vec::new(),
-            parameters: Vec::new(),
-            duration: 1.0,
-            every: 0.1,
-        }
-    }
-
-    #[test]
-    fn a_long_run_keeps_few_poses_but_the_first_and_the_last() {
-        let turning = Turning {
-            systems: Vec::new(),
-            fastest: 0.0,
-        };
-        let mut recorder = Recorder::new(header(), turning, MOST_INSTANTS);
-        let samples = 10 * MOST_INSTANTS + 7;
-        for i in 0..samples {
-            recorder.add(i as f64, &[i as f64, 0.0], &[]);
-        }
-        let error = RunError {
-            kind: bryant_runtime::program::ErrorKind::Run,
-            t: None,
-            coordinate: None,
-            cause: String::new(),
-            message: "broke off".into(),
-        };
-        let recording = recorder.finish(
-            Outcome {
-                result: Err(error),
-                answers: vec![],
-                kept: vec![],
-                history: None,
-                energy: None,
-                doubts: vec![],
-                notes: vec![],
-                nearest: vec![],
-            },
-            Duration::ZERO,
-        );
-        let last = (samples - 1) as f64;
-        assert!(recording.instants.len() <= MOST_INSTANTS + 1);
-        assert_eq!(recording.instants[0].time, 0.0);
-        assert_eq!(recording.last_time(), last);
-        let ends = recording.at(&[0.0, 100.2, last, last + 1.0]);
-        let times: Vec<f64> = ends.iter().map(|i| i.time).collect();
-        assert_eq!((times[0], times[2], times.len()), (0.0, last, 3));
-        assert!(ends.iter().all(|i| i.coordinates == [i.time]));
-        // Poses are one stride apart, so the nearest is at most half a stride away.
-        assert!((times[1] - 100.2).abs() <= recorder_stride(samples) as f64 / 2.0);
-    }
-
-    /// Number of samples between two poses after a run of this many samples.
-    fn recorder_stride(samples: usize) -> usize {
-        samples.div_ceil(MOST_INSTANTS).next_power_of_two()
     }
 }

@@ -223,7 +223,9 @@ impl Verdict {
 }
 
 /// The setting with the other formula, and a tenth of the tolerance.
-fn opinion(setting: &Setting) -> Setting {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn opinion(setting: &Setting) -> Setting {
     let tolerance = sharper(setting);
     let high = tolerance < HIGH;
     Setting {
@@ -237,34 +239,5 @@ fn opinion(setting: &Setting) -> Setting {
         pace: Pace::Tolerance(tolerance),
         scalar: Scalar::F64,
         locate: setting.locate || tolerance < LOCATED,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_check_is_by_another_formula_and_sharper() {
-        for formula in Formula::ALL {
-            for pace in [
-                Pace::Tolerance(1e-3),
-                Pace::Tolerance(1e-9),
-                Pace::Step(1e-4),
-            ] {
-                let setting = Setting {
-                    formula,
-                    switches: false,
-                    pace,
-                    scalar: Scalar::F64,
-                    locate: false,
-                };
-                let check = opinion(&setting);
-                assert_ne!(check.formula, formula);
-                if let Pace::Tolerance(tolerance) = pace {
-                    assert!(check.pace.value() < 0.11 * tolerance);
-                }
-            }
-        }
     }
 }

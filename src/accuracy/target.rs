@@ -117,24 +117,3 @@ pub fn second_opinion(setting: &Setting) -> Setting {
         locate: true,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_second_opinion_is_another_method() {
-        for formula in Formula::ALL {
-            let setting = Setting {
-                formula,
-                switches: false,
-                pace: Pace::Tolerance(1e-4),
-                scalar: Scalar::F64,
-                locate: false,
-            };
-            let opinion = second_opinion(&setting);
-            assert!(opinion.formula != formula && opinion.locate);
-            assert_eq!(opinion.pace, Pace::Tolerance(1e-6));
-        }
-    }
-}

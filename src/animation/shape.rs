@@ -39,7 +39,7 @@ impl Shape {
 }
 
 /// Positions, normals and triangles of Σ |x_i|ⁿ = 1, a sphere if n is 2.
-fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
+pub fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
     let (rings, sides) = AROUND;
     let n = f64::from(degree);
     let power = |x: f64, to: f64| libm::pow(x.abs(), to).copysign(x);
@@ -72,7 +72,7 @@ fn sphere(degree: u32) -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
 }
 
 /// Positions, normals and triangles of a rod, without its ends.
-fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
+pub fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
     let (mut places, mut normals, mut indices) = (Vec::new(), Vec::new(), Vec::new());
     for j in 0..=SIDES {
         let (y, x) = libm::sincos(TAU * j as f64 / SIDES as f64);
@@ -86,28 +86,4 @@ fn rod() -> (Vec<Vec3>, Vec<Vec3>, Vec<u32>) {
         indices.extend([first, first + 2, first + 3, first, first + 3, first + 1]);
     }
     (places, normals, indices)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{rod, sphere};
-    use crate::pose::cross;
-
-    /// Triangles are counter-clockwise about their normals.
-    #[test]
-    fn meshes_look_outward() {
-        for (places, normals, indices) in [sphere(2), sphere(8), rod()] {
-            for three in indices.chunks(3) {
-                let [a, b, c] = [0, 1, 2].map(|k| places[three[k] as usize]);
-                let sides = [b, c].map(|p| std::array::from_fn(|i| p[i] - a[i]));
-                let area = cross(sides[0], sides[1]);
-                let outward: f64 = three
-                    .iter()
-                    .map(|k| normals[*k as usize])
-                    .map(|n| n.iter().zip(area).map(|(n, a)| n * a).sum::<f64>())
-                    .sum();
-                assert!(outward >= -1e-12, "{three:?}");
-            }
-        }
-    }
 }

@@ -11,12 +11,18 @@
 //! directory and then moved to its place, so that two runs at once do not disturb each other, and an interrupted one
 //! leaves no incomplete entry.
 
-mod cache;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod cache;
 mod exports;
 pub mod guard;
 mod library;
-mod message;
-mod rustc;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod message;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod rustc;
 mod rustc_model;
 mod user_forces;
 

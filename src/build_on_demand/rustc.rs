@@ -188,7 +188,7 @@ fn program_identity() -> String {
     format!("{} {:?}", file.len(), since)
 }
 
-fn ask(command: &OsString, arguments: &[&str]) -> Result<String, BuildError> {
+pub fn ask(command: &OsString, arguments: &[&str]) -> Result<String, BuildError> {
     let name = || command.to_string_lossy().into_owned();
     let output: Output = Command::new(command)
         .args(arguments)
@@ -209,7 +209,7 @@ fn ask(command: &OsString, arguments: &[&str]) -> Result<String, BuildError> {
 }
 
 /// The first error among the messages of the compiler, without its context.
-fn first_error(messages: &str) -> String {
+pub fn first_error(messages: &str) -> String {
     let error = messages.lines().find_map(|line| {
         let rest = line.strip_prefix("error")?;
         rest.split_once(": ").map(|(_, message)| message)
@@ -219,34 +219,4 @@ fn first_error(messages: &str) -> String {
         .unwrap_or("the compiler printed no message")
         .trim()
         .to_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn keys_tell_texts_apart() {
-        assert_ne!(digest(["ab", "c"]), digest(["a", "bc"]));
-        assert_eq!(digest(["ab", "c"]), digest(["ab", "c"]));
-    }
-
-    #[test]
-    fn the_first_error_is_found() {
-        let messages = "warning: x\nerror[E0308]: mismatched types\n --> a.rs\nerror: aborting";
-        assert_eq!(first_error(messages), "mismatched types");
-        assert_eq!(first_error("\n segfault \n"), "segfault");
-        assert_eq!(first_error(""), "the compiler printed no message");
-    }
-
-    #[test]
-    fn a_missing_compiler_is_named_with_the_remedy() {
-        let error = ask(&"no-such-rustc".into(), &["-vV"])
-            .unwrap_err()
-            .to_string();
-        assert!(
-            error.contains("no-such-rustc") && error.contains("rustup.rs"),
-            "{error}"
-        );
-    }
 }

@@ -127,7 +127,7 @@ pub struct Arguments {
 
 /// Methods, each once.
 #[derive(Clone, Debug)]
-struct Methods(Vec<Scheme>);
+pub struct Methods(pub Vec<Scheme>);
 
 /// The places where results go.
 struct Places {
@@ -397,7 +397,7 @@ impl Arguments {
 }
 
 /// The link of a picture in a page: relative to the directory of the page if both paths are absolute or both are relative.
-fn link(page: &Path, picture: &Path) -> String {
+pub fn link(page: &Path, picture: &Path) -> String {
     let text = |path: &Path| path.to_string_lossy().replace('\\', "/");
     let directory = page.parent().unwrap_or(Path::new(""));
     let common = directory.components().zip(picture.components());
@@ -414,7 +414,7 @@ fn link(page: &Path, picture: &Path) -> String {
 }
 
 /// Names of methods, separated by commas.
-fn methods(text: &str) -> Result<Methods, String> {
+pub fn methods(text: &str) -> Result<Methods, String> {
     let mut methods = Vec::new();
     for name in text
         .split(',')
@@ -446,19 +446,19 @@ fn methods(text: &str) -> Result<Methods, String> {
     }
 }
 
-fn tolerances(text: &str) -> Result<Range, String> {
+pub fn tolerances(text: &str) -> Result<Range, String> {
     Range::read(text, quantity::tolerance)
         .map_err(|error| format!("{error}\n  help: give the largest and the smallest: 1e-2..1e-10"))
 }
 
-fn steps(text: &str) -> Result<Range, String> {
+pub fn steps(text: &str) -> Result<Range, String> {
     Range::read(text, quantity::time).map_err(|error| {
         format!("{error}\n  help: steps are positive times, from the longest to the shortest: '1 ms..10 us'")
     })
 }
 
 /// A requested error: between 0 and 1, possibly in %.
-pub(super) fn accuracy(text: &str) -> Result<f64, String> {
+pub fn accuracy(text: &str) -> Result<f64, String> {
     match quantity::quantity(text, "") {
         Ok(value) if value > 0.0 && value < 1.0 => Ok(value),
         Ok(_) => Err("it is not between 0 and 1\n  help: write it as 1 % or 1e-3".into()),
@@ -476,47 +476,4 @@ fn unknown_of(name: &str, all: &[&str]) -> Error {
         name.escape_debug(),
         all.join(", ")
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use bryant_runtime::Formula;
-
-    #[test]
-    fn bad_input_is_told_what_is_possible() {
-        let error = methods("rk4,dopri6").unwrap_err();
-        assert!(
-            error.contains("dopri5") && error.contains("rodas5"),
-            "{error}"
-        );
-        for wrong in ["0..1e-1", "-1e-3", "nan..1e-3", "1..1e-3", "x"] {
-            let error = tolerances(wrong).unwrap_err();
-            assert!(error.contains("1e-2..1e-10"), "{error}");
-        }
-        assert!(steps("0 s..1 ms").unwrap_err().contains("help:"));
-        assert!(accuracy("0").is_err() && accuracy("2").is_err());
-        assert_eq!(accuracy("1 %"), Ok(0.01));
-        assert_eq!(
-            methods("rk4, dopri5+rodas5,rk4").unwrap().0,
-            [
-                Scheme {
-                    formula: Formula::Rk4,
-                    switches: false
-                },
-                Scheme::DEFAULT
-            ]
-        );
-    }
-
-    #[test]
-    fn pages_link_pictures_as_seen_from_them() {
-        let link = |page: &str, picture: &str| link(Path::new(page), Path::new(picture));
-        assert_eq!(link("docs/a.md", "docs/images/a.svg"), "images/a.svg");
-        assert_eq!(link("a.md", "a.svg"), "a.svg");
-        assert_eq!(link("docs/a.md", "out/a.svg"), "../out/a.svg");
-        assert_eq!(link("docs/b/a.md", "docs/images/a.svg"), "../images/a.svg");
-        assert_eq!(link("/docs/a.md", "a.svg"), "a.svg");
-        assert_eq!(link("../a.md", "a.svg"), "a.svg");
-    }
 }

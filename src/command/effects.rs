@@ -1,6 +1,8 @@
 //! `bryant effects`: lists which effects of a scene are in and out, why, and what each costs.
 
-mod table;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod table;
 
 use super::Error;
 use super::model_argument::find;

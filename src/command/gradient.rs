@@ -1,7 +1,11 @@
 //! `bryant gradient`: exact derivatives of responses with respect to parameters.
 
-mod slopes;
-pub(super) mod table;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod slopes;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod table;
 
 use super::Error;
 use super::model_argument::{find, nearest};

@@ -1,34 +1,50 @@
 //! The command line: one file for each subcommand; errors and exit codes.
 
-mod accuracy;
+// Those that are public are so for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod accuracy;
+#[doc(hidden)]
+pub mod effects;
+#[doc(hidden)]
+pub mod error_report;
+#[doc(hidden)]
+pub mod export;
+#[doc(hidden)]
+pub mod gradient;
+#[doc(hidden)]
+pub mod help;
+#[doc(hidden)]
+pub mod model_argument;
+#[doc(hidden)]
+pub mod outputs;
+#[doc(hidden)]
+pub mod prepare;
+#[doc(hidden)]
+pub mod progress;
+#[doc(hidden)]
+pub mod response;
+#[doc(hidden)]
+pub mod run;
+#[doc(hidden)]
+pub mod sweep;
+#[doc(hidden)]
+pub mod terminal;
+
 mod caution;
 mod check;
 mod compare;
 mod criteria;
-mod effects;
 mod equations;
-mod error_report;
-mod export;
-mod gradient;
-mod help;
 mod human;
 mod import;
 mod integration;
 mod merge;
-mod model_argument;
 mod models;
 mod modes;
-mod outputs;
 mod parameters;
-mod prepare;
-mod progress;
-mod response;
-mod run;
 mod schema;
 mod settle;
 mod stability;
-mod sweep;
-mod terminal;
 
 pub(crate) use terminal::fitted;
 
@@ -84,7 +100,9 @@ Environment:
   RUSTC          the compiler for functions of user forces (otherwise rustc from the path)
   NO_COLOR       no colour, whatever the terminal"
 )]
-struct Cli {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -114,7 +132,9 @@ enum Command {
 
 /// The reasons why a command failed.
 #[derive(Debug)]
-enum Error {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub enum Error {
     /// The description of a model is wrong.
     Model(Diagnostics),
     /// A user function failed in a run.
@@ -278,105 +298,6 @@ fn print_help(text: &clap::Error) -> ExitCode {
         Err(error) => {
             error.report(&terminal);
             ExitCode::from(error.exit_code())
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bundled;
-
-    #[test]
-    fn the_command_line_is_consistent() {
-        Cli::command().debug_assert();
-    }
-
-    /// The words of a line as a shell splits it, up to a pipe, a redirection, or a remark after two spaces.
-    fn words(line: &str) -> Vec<String> {
-        let mut words = vec![String::new()];
-        let (mut quoted, mut before) = (false, ' ');
-        for c in line.chars() {
-            match c {
-                '\'' => quoted = !quoted,
-                _ if quoted => words.last_mut().unwrap().push(c),
-                '|' | '>' => break,
-                ' ' if before == ' ' => break,
-                ' ' => words.push(String::new()),
-                c => words.last_mut().unwrap().push(c),
-            }
-            before = c;
-        }
-        words.retain(|word| !word.is_empty());
-        words
-    }
-
-    /// All examples are valid. Their models are bundled, so that parameters and outputs are checked, or are files of the reader.
-    #[test]
-    fn examples_of_help_are_commands() {
-        let whole = Cli::command();
-        let mut commands: Vec<_> = whole.get_subcommands().cloned().collect();
-        commands.push(whole.clone());
-        for command in &mut commands {
-            let help = command.render_long_help().to_string();
-            let examples = help
-                .lines()
-                .filter_map(|line| match line.split_once("| bryant ") {
-                    Some((_, rest)) => Some(words(&format!("bryant {rest}"))),
-                    None => line
-                        .starts_with("  bryant ")
-                        .then(|| words(line.trim_start())),
-                });
-            for words in examples {
-                assert!(
-                    whole.clone().try_get_matches_from(&words).is_ok(),
-                    "{words:?}"
-                );
-                let found = words.iter().find_map(|word| bundled::find(word));
-                let of_no_model = [
-                    "models",
-                    "stability",
-                    "merge",
-                    "compare",
-                    "criteria",
-                    "human",
-                    "schema",
-                ]
-                .contains(&words[1].as_str());
-                let own = words.iter().any(|word| word.contains(".yaml"));
-                assert!(of_no_model || own || found.is_some(), "{words:?}");
-                let Some(model) = found.map(|found| bundled::model(found).unwrap()) else {
-                    continue;
-                };
-                for pair in words.windows(2) {
-                    let known = match pair[0].as_str() {
-                        "--set" => model
-                            .parameters
-                            .iter()
-                            .any(|p| pair[1].starts_with(&format!("{}=", p.name))),
-                        "--plot" => pair[1]
-                            .split(", ")
-                            .all(|name| model.outputs.iter().any(|o| o.name == name)),
-                        _ => true,
-                    };
-                    assert!(known, "{pair:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn every_option_says_what_it_does() {
-        for command in Cli::command().get_subcommands() {
-            assert!(command.get_about().is_some(), "{}", command.get_name());
-            for argument in command.get_arguments() {
-                assert!(
-                    argument.get_help().is_some(),
-                    "{} {}",
-                    command.get_name(),
-                    argument.get_id()
-                );
-            }
         }
     }
 }

@@ -132,7 +132,7 @@ pub fn find_bundled(name: &str) -> Result<&'static Bundled, Error> {
     })
 }
 
-fn looks_like_path(argument: &str) -> bool {
+pub fn looks_like_path(argument: &str) -> bool {
     let extension = Path::new(argument).extension();
     argument.contains(['/', '\\'])
         || extension.is_some_and(|e| {
@@ -164,23 +164,4 @@ pub fn nearest<'a>(word: &str, candidates: &[&'a str]) -> Option<&'a str> {
         .filter(|(d, _)| *d <= allowed && word.len() < 100)
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn near_misses_are_near() {
-        let names = ["child-seat", "double-pendulum"];
-        assert_eq!(nearest("childseat", &names), Some("child-seat"));
-        assert_eq!(nearest("Child-Seat", &names), Some("child-seat"));
-        assert_eq!(nearest("dummy", &names), None);
-    }
-
-    #[test]
-    fn paths_are_told_from_names() {
-        assert!(looks_like_path("my.yaml") && looks_like_path("a/b") && looks_like_path("x.yml"));
-        assert!(!looks_like_path("child-seat") && !looks_like_path("v1.2"));
-    }
 }

@@ -26,7 +26,7 @@ pub struct Replacing {
 }
 
 /// The file that discards everything that is written to it.
-const NOWHERE: &str = match cfg!(windows) {
+pub const NOWHERE: &str = match cfg!(windows) {
     true => "NUL",
     false => "/dev/null",
 };
@@ -120,7 +120,7 @@ impl Outputs {
 }
 
 /// Refuses a name that Windows does not allow for files.
-fn exists_on_windows(option: &str, path: &Path) -> Result<(), Error> {
+pub fn exists_on_windows(option: &str, path: &Path) -> Result<(), Error> {
     for part in path.components() {
         let Component::Normal(name) = part else {
             continue;
@@ -159,59 +159,5 @@ pub fn picture(text: &str) -> Result<PathBuf, String> {
         false => Err(
             "a picture is written as .svg or as .png\n  help: name a file that ends so, or - for SVG on standard output".into(),
         ),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn places_are_taken_once() {
-        let mut outputs = Outputs::of(&[PathBuf::from("model.yaml")], Replacing::default());
-        let mut told =
-            |option: &str, path: &str| match outputs.take(option, Path::new(path), Kind::Table) {
-                Ok(()) => String::new(),
-                Err(Error::Input(message)) => message,
-                Err(error) => panic!("{error:?}"),
-            };
-        assert_eq!(told("--csv", "a.csv"), "");
-        let message = told("--picture", "./a.csv");
-        assert!(message.starts_with("--csv and --picture both write to ./a.csv"));
-        assert!(told("--markdown", "./model.yaml").contains("model.yaml, which is read"));
-        assert_eq!(told("--json", "-") + &told("--plot", "b.csv"), "");
-        assert!(
-            told("--csv", "/dev/stdout").contains("--json and --csv both write to standard output")
-        );
-        assert_eq!(told("--csv", NOWHERE) + &told("--picture", NOWHERE), "");
-    }
-
-    #[test]
-    fn a_name_that_windows_has_not_is_refused_with_the_option() {
-        let told = |path: &str| {
-            exists_on_windows("--csv", Path::new(path)).map_err(|error| match error {
-                Error::Input(message) => message,
-                error => panic!("{error:?}"),
-            })
-        };
-        assert_eq!(told("../out/child-seat.csv"), Ok(()));
-        for bad in ["con.csv", "out/aux.csv", "nul/a.csv"] {
-            let message = told(bad).unwrap_err();
-            assert!(
-                message.contains("--csv") && message.contains(bad) && message.contains("device"),
-                "{message}"
-            );
-        }
-    }
-
-    #[test]
-    fn pictures_are_told_by_their_endings() {
-        for good in ["a.svg", "b/a.PNG", "-"] {
-            assert!(picture(good).is_ok(), "{good}");
-        }
-        for bad in ["a.jpg", "a", "png", "a.svg.bak", ""] {
-            let message = picture(bad).unwrap_err();
-            assert!(message.contains(".svg or as .png") && message.contains("help:"));
-        }
     }
 }

@@ -49,17 +49,17 @@ struct Shared {
     messages: Option<Kept>,
 }
 
-struct State {
-    what: String,
-    whole: Whole,
+pub struct State {
+    pub what: String,
+    pub whole: Whole,
     /// The time when counting began, the amount at this time, and the present amount.
-    since: Instant,
-    from: f64,
-    done: f64,
+    pub since: Instant,
+    pub from: f64,
+    pub done: f64,
     /// Estimated time of the tasks that follow \[s\].
-    later: f64,
-    over: bool,
-    bar: Option<ProgressBar>,
+    pub later: f64,
+    pub over: bool,
+    pub bar: Option<ProgressBar>,
 }
 
 impl Progress {
@@ -257,7 +257,7 @@ impl State {
     }
 
     /// The line about the task: "running occupant: 12 of 120 ms simulated, about 40 s left"
-    fn line(&self) -> String {
+    pub fn line(&self) -> String {
         let amount = match self.whole {
             Whole::Time(all) => {
                 format!("{} of {} simulated", time(self.done), time(all))
@@ -274,7 +274,7 @@ impl State {
     }
 
     /// Estimated remaining time \[s\], at the rate of the time `watched`; `None` if the rate is not known.
-    fn left(&self, watched: Duration) -> Option<f64> {
+    pub fn left(&self, watched: Duration) -> Option<f64> {
         let rate = (self.done - self.from) / watched.as_secs_f64();
         let known = watched >= WATCHED && rate > 0.0;
         known.then(|| (self.all() - self.done).max(0.0) / rate + self.later)
@@ -282,64 +282,12 @@ impl State {
 }
 
 /// A span of time in at most two units: "40 s", "1 min 5 s", "2 h 1 min".
-fn span(seconds: f64) -> String {
+pub fn span(seconds: f64) -> String {
     let seconds = seconds.ceil().min(1e9) as u64;
     let (hours, minutes) = (seconds / 3600, seconds / 60 % 60);
     match (hours, minutes) {
         (0, 0) => format!("{seconds} s"),
         (0, _) => format!("{minutes} min {} s", seconds % 60),
         _ => format!("{hours} h {minutes} min"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn time_left_is_told_in_two_units() {
-        assert_eq!(span(3.2), "4 s");
-        assert_eq!(span(61.0), "1 min 1 s");
-        assert_eq!(span(7260.0), "2 h 1 min");
-    }
-
-    fn state(whole: Whole, from: f64, done: f64) -> State {
-        State {
-            what: "running seat".into(),
-            whole,
-            since: Instant::now(),
-            from,
-            done,
-            later: 0.0,
-            over: false,
-            bar: None,
-        }
-    }
-
-    #[test]
-    fn what_is_done_is_said_in_its_own_unit() {
-        let line = |whole, done| state(whole, 0.0, done).line();
-        assert_eq!(
-            line(Whole::Time(0.12), 0.012),
-            "running seat: 12 ms of 120 ms simulated"
-        );
-        assert_eq!(
-            line(Whole::Count(216, "effects"), 34.0),
-            "running seat: 34 of 216 effects"
-        );
-        assert_eq!(line(Whole::Unknown, 0.0), "running seat: 0 s so far");
-        assert_eq!(line(Whole::Share, 0.34), "running seat: 34 %");
-    }
-
-    /// An amount that was done at the beginning says nothing about the rate.
-    #[test]
-    fn the_time_left_is_that_of_the_rate() {
-        let of = state(Whole::Count(100, "runs"), 40.0, 60.0);
-        assert_eq!(of.left(Duration::from_secs(10)), Some(20.0));
-        assert_eq!(of.left(Duration::from_millis(500)), None);
-        let of = State { later: 7.0, ..of };
-        assert_eq!(of.left(Duration::from_secs(10)), Some(27.0));
-        let of = state(Whole::Time(1.0), 0.0, 0.0);
-        assert_eq!(of.left(Duration::from_secs(10)), None);
     }
 }

@@ -5,13 +5,19 @@ mod comparison;
 mod criteria;
 mod files;
 mod inputs;
-mod outcome;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod outcome;
 mod remarks;
 mod report;
-mod responses;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod responses;
 mod result;
 mod rings;
-mod scene;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod scene;
 
 use self::scene::Shown;
 use super::Error;

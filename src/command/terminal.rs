@@ -28,7 +28,7 @@ pub struct Terminal {
 impl Terminal {
     /// The terminal of this process. From now on, output of user functions goes to standard error, because standard
     /// output is for results.
-    pub fn new() -> Self {
+    pub(super) fn new() -> Self {
         // must be asked before standard output is moved
         let closed = process::stdout_was_closed();
         Self::over(guard::stdout_for_results(), closed)
@@ -50,12 +50,6 @@ impl Terminal {
             messages: Some(messages),
             ..Self::over(Box::new(output), false)
         }
-    }
-
-    /// One for a test, which leaves standard output where it is.
-    #[cfg(test)]
-    pub fn of_test() -> Self {
-        Self::over(Box::new(io::stdout()), false)
     }
 
     /// Prints a result.
@@ -248,24 +242,4 @@ pub fn unwritten(error: io::Error) -> Error {
 
 fn not_written(reason: impl std::fmt::Display) -> Error {
     Error::System(format!("cannot write to standard output: {reason}"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::fitted;
-
-    #[test]
-    fn a_long_line_is_broken_between_words_and_hangs() {
-        let text = "short  line\n  4050 evaluations; 160 ms simulated in 19 ms";
-        assert_eq!(
-            fitted(text, 24),
-            "short  line\n  4050 evaluations;\n    160 ms simulated in\n    19 ms"
-        );
-        assert!(
-            fitted(text, 24)
-                .lines()
-                .all(|line| line.chars().count() <= 24)
-        );
-        assert_eq!(fitted(text, 80), text);
-    }
 }

@@ -211,7 +211,7 @@ impl Plan {
 const TICKED: usize = 3;
 
 /// A step no larger than `step` with which an axis has enough ticks, or as many as fit.
-fn enough(step: f64, ends: [f64; 2], fits: impl Fn(f64) -> bool) -> f64 {
+pub fn enough(step: f64, ends: [f64; 2], fits: impl Fn(f64) -> bool) -> f64 {
     let count = |step: f64| multiples(step, ends).count();
     let finer = std::iter::successors(Some(step), |step| Some(nice_above(0.39 * step)));
     let finer = finer
@@ -233,24 +233,7 @@ fn multiples(step: f64, [low, high]: [f64; 2]) -> std::ops::RangeInclusive<i64> 
 }
 
 /// A label of a multiple of a step.
-fn tick(step: f64, value: f64) -> String {
+pub fn tick(step: f64, value: f64) -> String {
     let decimals = (-libm::log10(step * (1.0 + 1e-9)).floor()).clamp(0.0, 9.0) as usize;
     format!("{:.decimals$}", value + 0.0).replace('-', "−")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_axis_has_three_ticks_where_they_fit() {
-        let ends = [-0.07, 0.3];
-        assert_eq!(enough(0.05, ends, |_| true), 0.05);
-        // 0 and 0.2 are only two; 0, 0.1, 0.2, 0.3 are enough
-        assert!((enough(0.2, ends, |_| true) - 0.1).abs() < 1e-12);
-        assert!((enough(0.5, ends, |_| true) - 0.1).abs() < 1e-12);
-        assert_eq!(enough(0.5, ends, |step| step > 0.1), 0.2);
-        assert_eq!(tick(0.1, 0.30000000000000004), "0.3");
-        assert_eq!(tick(20.0, -40.0), "−40");
-    }
 }

@@ -64,7 +64,9 @@ text{font-family:'DejaVu Sans',Verdana,sans-serif;font-size:12px;fill:#222}
 ";
 
 /// The frame: left, top, width, height.
-const FRAME: [f64; 4] = [64.0, 58.0, 620.0, 440.0];
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub const FRAME: [f64; 4] = [64.0, 58.0, 620.0, 440.0];
 const WIDTH: f64 = 1020.0;
 const LEGEND: f64 = FRAME[0] + FRAME[2] + 24.0;
 const LINE_HEIGHT: f64 = 18.0;
@@ -138,7 +140,9 @@ impl Diagram {
     }
 
     /// The best line of each method: the one that is fastest for most errors, among half decades that any line of the method reaches.
-    fn best(&self) -> Vec<Option<usize>> {
+    // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+    #[doc(hidden)]
+    pub fn best(&self) -> Vec<Option<usize>> {
         let of_method = |method: usize| {
             let lines = self.lines.iter().enumerate();
             let lines: Vec<(usize, &Line)> = lines.filter(|(_, l)| l.method == method).collect();
@@ -239,7 +243,9 @@ fn mark(drawing: &mut Drawing, class: &str, fixed: bool, [x, y]: [f64; 2], size:
 
 impl Diagram {
     /// Axes of decimal logarithms around all points; their ends are half decades, and ticks are powers of ten.
-    fn axes(&self) -> Axes {
+    // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+    #[doc(hidden)]
+    pub fn axes(&self) -> Axes {
         let lists = || {
             self.lines
                 .iter()
@@ -278,12 +284,16 @@ impl Diagram {
 }
 
 /// The place of a point on the sheet.
-fn place(axes: &Axes, point: [f64; 2]) -> [f64; 2] {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn place(axes: &Axes, point: [f64; 2]) -> [f64; 2] {
     axes.place(point.map(libm::log10))
 }
 
 /// "10⁻⁶", "1"
-fn power(exponent: i32) -> String {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn power(exponent: i32) -> String {
     if exponent == 0 {
         return "1".into();
     }
@@ -296,95 +306,4 @@ fn power(exponent: i32) -> String {
         digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
     });
     format!("10{}", raised.collect::<String>())
-}
-
-#[cfg(test)]
-pub(super) mod tests {
-    use super::*;
-
-    pub(in crate::picture) fn diagram() -> Diagram {
-        let line = |method, variant, fixed, points: &[[f64; 2]]| Line {
-            method,
-            variant,
-            fixed,
-            points: points.to_vec(),
-        };
-        Diagram {
-            title: "pendulum <10 s>".into(),
-            error: "the state".into(),
-            methods: vec!["rk4".into(), "dop853".into()],
-            variants: vec!["f64".into(), "f32".into()],
-            lines: vec![
-                line(0, 0, true, &[[1e-2, 1e-4], [1e-6, 1e-3]]),
-                line(
-                    1,
-                    0,
-                    false,
-                    &[[1e-3, 5e-5], [1e-9, 2e-4], [f64::INFINITY, 1.0]],
-                ),
-                line(1, 1, false, &[[1e-3, 4e-5]]),
-            ],
-            front: vec![[1e-3, 4e-5], [1e-9, 2e-4]],
-            own: 1e-13,
-            sentence: "for 1 % in the state the cheapest is dop853".into(),
-        }
-    }
-
-    #[test]
-    fn lines_points_legend_and_sentence_are_there() {
-        let svg = diagram().drawing().svg();
-        let count = |text: &str| svg.matches(text).count();
-        // two lines of more than one point, a sample of each in the legend
-        assert_eq!(count("<polyline class=\"line"), 2 + 2, "{svg}");
-        assert_eq!(count("<polyline class=\"front\""), 2);
-        // rings around the front, and one in the legend
-        assert_eq!(count("<circle class=\"ring\""), 2 + 1);
-        // f32 is a little faster at one error, f64 reaches all
-        assert_eq!(diagram().best(), [Some(0), Some(1)]);
-        assert_eq!(
-            (count("class=\"mark f1\""), count("class=\"mark grey\"")),
-            (2, 1 + 2)
-        );
-        assert_eq!(count("class=\"other\""), 1);
-        for text in [
-            "pendulum &lt;10 s&gt;",
-            "10⁻⁹",
-            "100 µs",
-            "for 1 %",
-            "rk4",
-            "dop853, f64",
-            "their other variants",
-        ] {
-            assert!(svg.contains(text), "{text}: {svg}");
-        }
-        assert!(!svg.contains("NaN") && !svg.contains("inf"));
-        assert_eq!(svg, diagram().drawing().svg());
-    }
-
-    #[test]
-    fn places_are_logarithmic() {
-        let axes = diagram().axes();
-        let [left, top, width, height] = FRAME;
-        assert_eq!(axes.ranges, [-9.0..-2.0, -4.5..-3.0]);
-        let corner = place(&axes, [1e-9, 1e-3]);
-        assert!((corner[0] - left).abs() < 1e-9 && (corner[1] - top).abs() < 1e-9);
-        let middle = place(&axes, [10f64.powf(-5.5), 10f64.powf(-3.75)]);
-        assert!((middle[0] - left - 0.5 * width).abs() < 1e-9);
-        assert!((middle[1] - top - 0.5 * height).abs() < 1e-9);
-    }
-
-    #[test]
-    fn a_study_without_a_single_point_is_drawn_too() {
-        let empty = Diagram {
-            lines: Vec::new(),
-            front: Vec::new(),
-            ..diagram()
-        };
-        assert!(empty.drawing().svg().ends_with("</svg>\n"));
-    }
-
-    #[test]
-    fn powers_of_ten_are_written_as_people_do() {
-        assert_eq!([power(-12), power(0), power(3)], ["10⁻¹²", "1", "10³"]);
-    }
 }

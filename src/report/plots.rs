@@ -12,20 +12,24 @@ const MOST_CURVES: usize = 6;
 
 /// An output on the page.
 #[derive(Clone, Debug, PartialEq)]
-struct Place {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub struct Place {
     /// What it measures: "acceleration", "belt force".
-    what: String,
+    pub what: String,
     /// Where: "driver/head", "three-point"; empty if that has no name.
-    place: String,
+    pub place: String,
 }
 
 /// A plot: its title, the title of its axis of values, the unit of its curves, and their outputs.
 #[derive(Clone, Debug, PartialEq)]
-struct Plot {
-    title: String,
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub struct Plot {
+    pub title: String,
     what: String,
     unit: String,
-    curves: Vec<usize>,
+    pub curves: Vec<usize>,
 }
 
 /// The plots of a run whose outputs have these units and these largest magnitudes.
@@ -91,7 +95,9 @@ pub fn of_force(model: &Model, force: usize) -> Vec<Body> {
     bodies
 }
 
-fn plots(places: &[Place], units: &[&str], names: &[&str], sizes: &[f64]) -> Vec<Plot> {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn plots(places: &[Place], units: &[&str], names: &[&str], sizes: &[f64]) -> Vec<Plot> {
     // each output joins the first group of its kind: together at a place, or alone
     let alone = |k: usize| {
         let same = (0..places.len()).filter(|j| places[*j] == places[k] && units[*j] == units[k]);
@@ -232,62 +238,4 @@ fn measure(unit: &str) -> &'static str {
         .iter()
         .find(|(si, _)| unit::factor(unit, si).is_some());
     found.map_or("value", |(_, word)| word)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Place, plots};
-
-    fn at(what: &str, place: &str) -> Place {
-        Place {
-            what: what.into(),
-            place: place.into(),
-        }
-    }
-
-    #[test]
-    fn components_stand_together_and_lonely_outputs_with_their_like() {
-        let places = [
-            at("acceleration", "head"),
-            at("belt force", "lap"),
-            at("acceleration", "head"),
-            at("acceleration", "chest"),
-            at("belt force", "shoulder"),
-            at("acceleration", "pelvis"),
-            at("belt force", "crotch"),
-        ];
-        let units = ["g", "N", "g", "g", "N", "g", "kN"];
-        let names = ["a", "b", "c", "d", "e", "f", "g"];
-        let found = plots(&places, &units, &names, &[1.0; 7]);
-        let found: Vec<(&str, &[usize])> = found
-            .iter()
-            .map(|plot| (plot.title.as_str(), &plot.curves[..]))
-            .collect();
-        let expected: [(&str, &[usize]); 4] = [
-            ("acceleration, head", &[0, 2]),
-            ("belt force", &[1, 4]),
-            ("acceleration", &[3, 5]),
-            // another unit has an axis of its own
-            ("g", &[6]),
-        ];
-        assert_eq!(found, expected);
-    }
-
-    #[test]
-    fn a_plot_has_six_curves_and_small_ones_are_not_beside_large_ones() {
-        let places: Vec<Place> = (0..14)
-            .map(|k| at("contact force", &k.to_string()))
-            .collect();
-        let sizes: Vec<f64> = (0..14)
-            .map(|k| if k % 3 == 0 { 1e4 } else { f64::from(k) })
-            .collect();
-        let found = plots(&places, &["N"; 14], &["x"; 14], &sizes);
-        assert_eq!(found.len(), 3);
-        assert_eq!(found[0].curves, [0, 3, 6, 9, 12]);
-        assert!(found.iter().all(|plot| plot.curves.len() <= 6));
-        let mut all: Vec<usize> = found.iter().flat_map(|plot| plot.curves.clone()).collect();
-        all.sort_unstable();
-        assert_eq!(all, (0..14).collect::<Vec<_>>());
-        assert_eq!(found[2].title, "contact force, 3 of 3");
-    }
 }

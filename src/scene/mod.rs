@@ -7,7 +7,9 @@ mod build;
 mod camera;
 pub mod mesh;
 mod planes;
-mod route;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod route;
 
 use crate::picture::Instant;
 use crate::pose::{Frame, Layout, Mismatch, Numbers, Pose, Vec3, dot};

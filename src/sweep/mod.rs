@@ -11,7 +11,9 @@
 mod alone;
 mod engine;
 mod inputs;
-mod plan;
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub mod plan;
 mod refusal;
 
 pub use alone::{Alone, alone};

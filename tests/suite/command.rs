@@ -31,6 +31,7 @@ mod resting;
 mod robots;
 mod scenes;
 mod share;
+mod shown_units;
 mod singular;
 mod slipping;
 mod slopes;

@@ -146,33 +146,17 @@ fn notes(study: &Study) -> Vec<String> {
 }
 
 /// An error with two digits; with "≤" if only a bound is known.
-fn known(Known { error, at_most }: Known) -> String {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn known(Known { error, at_most }: Known) -> String {
     format!("{}{error:.1e}", if at_most { "≤" } else { "" })
 }
 
 /// A number with about three digits.
-fn digits(value: f64) -> String {
+// Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
+#[doc(hidden)]
+pub fn digits(value: f64) -> String {
     let exponent = libm::log10(value.abs().max(1e-9)).floor() as i32;
     let decimals = (2 - exponent).clamp(0, 6) as usize;
     format!("{value:.decimals$}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_have_three_digits() {
-        assert_eq!(
-            [0.21456, 21.456, 2145.6].map(digits),
-            ["0.215", "21.5", "2146"]
-        );
-        let bound = |at_most| {
-            known(Known {
-                error: 1.23e-10,
-                at_most,
-            })
-        };
-        assert_eq!([bound(true), bound(false)], ["≤1.2e-10", "1.2e-10"]);
-    }
 }

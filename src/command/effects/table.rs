@@ -96,7 +96,7 @@ impl Table {
         Self::of(&lines, timed, room)
     }
 
-    fn of(lines: &[Cells], timed: bool, room: Option<usize>) -> Self {
+    pub fn of(lines: &[Cells], timed: bool, room: Option<usize>) -> Self {
         let mut widths = [0; 7];
         for line in lines {
             for (width, cell) in widths.iter_mut().zip(line) {
@@ -141,7 +141,7 @@ impl Table {
         text
     }
 
-    fn line(&self, line: &Cells) -> String {
+    pub fn line(&self, line: &Cells) -> String {
         let shown = |column: usize| self.timed || !TIMES.contains(&column);
         let mut text = String::new();
         let [before @ .., last] = line;
@@ -240,7 +240,7 @@ fn totals(total: &Total) -> [Cells; 2] {
 }
 
 /// "10", "10 + 2" with calls, "-3"
-fn difference(difference: Difference) -> String {
+pub fn difference(difference: Difference) -> String {
     match difference.calls {
         0 => difference.operations.to_string(),
         calls if calls < 0 => format!("{} - {}", difference.operations, -calls),
@@ -323,61 +323,4 @@ pub fn as_json(model: &Model, rows: &[Row<'_>], total: &Total, complete: bool) -
         "noise_s": total.noise(),
         "complete": complete,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn differences_show_calls_beside() {
-        let of = |operations, calls| difference(Difference { operations, calls });
-        assert_eq!(
-            [of(10, 0), of(10, 2), of(-3, -1)],
-            ["10", "10 + 2", "-3 - 1"]
-        );
-    }
-
-    #[test]
-    fn columns_are_aligned() {
-        let lines = [
-            ["effect", "", "operations", "with", "without", "code", "why"].map(str::to_owned),
-            ["a long one", "in", "7", "1.5", "1.0", "8", "here"].map(str::to_owned),
-        ];
-        let text = |timed| {
-            let table = Table::of(&lines, timed, None);
-            lines
-                .iter()
-                .map(|line| table.line(line))
-                .collect::<String>()
-        };
-        assert_eq!(
-            text(true),
-            "effect          operations     with  without     code  why\n\
-             a long one  in           7      1.5      1.0        8  here\n"
-        );
-        assert_eq!(
-            text(false),
-            "effect          operations  why\na long one  in           7  here\n"
-        );
-    }
-
-    #[test]
-    fn reasons_fit_the_line() {
-        let reason = "all seven elements share the field, so that it enters once";
-        let line = ["field", "out", "", "", "", "", reason].map(str::to_owned);
-        let text = |room| Table::of(std::slice::from_ref(&line), false, Some(room)).line(&line);
-        assert_eq!(
-            text(46),
-            "field  out    all seven elements share the\n\
-             \x20             field, so that it enters once\n"
-        );
-        assert_eq!(
-            text(30),
-            "field  out\n\
-             \x20   all seven elements share\n\
-             \x20   the field, so that it\n\
-             \x20   enters once\n"
-        );
-    }
 }

@@ -12,9 +12,9 @@ pub struct Library {
 }
 
 /// A platform: a processor and a system.
-struct Platform {
+pub struct Platform {
     /// Its name in FMI 3.0.
-    name: &'static str,
+    pub name: &'static str,
     /// Its name in FMI 2.0.
     in_two: &'static str,
     ending: &'static str,
@@ -133,7 +133,7 @@ impl Library {
 }
 
 /// The platform of a shared library, by its first bytes.
-fn recognised(content: &[u8]) -> Option<&'static Platform> {
+pub fn recognised(content: &[u8]) -> Option<&'static Platform> {
     let number = |at: usize, bytes: usize| -> Option<u32> {
         let number = content.get(at..at.checked_add(bytes)?)?;
         Some(
@@ -165,28 +165,4 @@ fn beside_program() -> Result<PathBuf, Error> {
             program.display()
         ))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn platforms_are_recognised_by_the_first_bytes() {
-        let mut elf = vec![0; 64];
-        elf[..4].copy_from_slice(b"\x7fELF");
-        elf[18] = 183;
-        assert_eq!(recognised(&elf).map(|of| of.name), Some("aarch64-linux"));
-        let mut portable = vec![0; 256];
-        portable[..2].copy_from_slice(b"MZ");
-        portable[60] = 128;
-        portable[132..134].copy_from_slice(&[0x64, 0x86]);
-        assert_eq!(
-            recognised(&portable).map(|of| of.name),
-            Some("x86_64-windows")
-        );
-        portable.truncate(100);
-        assert!(recognised(&portable).is_none());
-        assert!(recognised(b"#!/bin/sh").is_none() && recognised(b"").is_none());
-    }
 }

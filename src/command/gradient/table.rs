@@ -190,8 +190,8 @@ impl Table<'_> {
 /// So many digits are shown where the error of a number does not say less.
 const DIGITS: usize = 5;
 
-/// The digits of a value that its error supports: at least one, and at most [`DIGITS`].
-fn known_digits(value: f64, error: Option<f64>) -> usize {
+/// The digits of a value that its error supports: at least one, and at most `DIGITS`.
+pub fn known_digits(value: f64, error: Option<f64>) -> usize {
     let Some(error) = error.filter(|error| error.is_finite()) else {
         return DIGITS;
     };
@@ -204,7 +204,7 @@ fn known_digits(value: f64, error: Option<f64>) -> usize {
 }
 
 /// A number with so many digits.
-pub(in crate::command) fn number(value: f64, digits: usize) -> String {
+pub fn number(value: f64, digits: usize) -> String {
     let size = value.abs();
     let behind = digits.saturating_sub(1);
     match size {
@@ -225,7 +225,7 @@ fn with_unit(unit: &str) -> String {
 }
 
 /// The unit of a response in one unit divided by a parameter in another.
-fn quotient(above: &Unit, below: &Unit) -> String {
+pub fn quotient(above: &Unit, below: &Unit) -> String {
     let dimension = |unit: &Unit| dimension(&unit.name).unwrap_or(Dimension::ONE);
     match (above.name.as_str(), below.name.as_str()) {
         _ if above.size == 1.0 && below.size == 1.0 => {
@@ -237,44 +237,5 @@ fn quotient(above: &Unit, below: &Unit) -> String {
         ("", below) => format!("1/{below}"),
         (above, below) if below.contains(['*', '/']) => format!("{above}/({below})"),
         (above, below) => format!("{above}/{below}"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{known_digits, number, quotient};
-    use bryant_generator::model::units::UnitSystem;
-
-    #[test]
-    fn numbers_have_as_many_digits_as_are_known() {
-        assert_eq!(number(1234.5678, 7), "1234.568");
-        assert_eq!(number(1234.5678, 2), "1235");
-        assert_eq!(number(-0.25, 5), "-0.25000");
-        assert_eq!(number(1e-9, 3), "1.00e-9");
-        assert_eq!(known_digits(2.0, None), 5);
-        assert_eq!(known_digits(2.0, Some(0.0)), 5);
-        assert_eq!(known_digits(2.0, Some(1e-3)), 3);
-        assert_eq!(known_digits(2.0, Some(1e-9)), 5);
-        // what is smaller than the error
-        assert_eq!(known_digits(1e-6, Some(1e-3)), 1);
-        assert_eq!(known_digits(2.0, Some(f64::NAN)), 5);
-    }
-
-    #[test]
-    fn units_of_slopes_are_quotients() {
-        let of = |system: UnitSystem, above: &str, below: &str| {
-            quotient(&system.unit(above), &system.unit(below))
-        };
-        for (above, below, si, engineering) in [
-            ("N", "m", "N/m", "kN/mm"),
-            ("N", "N", "", ""),
-            ("", "m", "1/m", "1/mm"),
-            ("m/s^2", "", "m/s^2", "g"),
-            ("N", "N/m", "m", "kN/(N/m)"),
-            ("N*m", "", "N*m", "N*m"),
-        ] {
-            assert_eq!(of(UnitSystem::Si, above, below), si);
-            assert_eq!(of(UnitSystem::Engineering, above, below), engineering);
-        }
     }
 }

@@ -176,13 +176,13 @@ pub fn failure(error: &RunError, recording: &Recording) -> String {
 }
 
 /// The element or reference joint of the failing coordinate or velocity.
-fn element(error: &RunError) -> Option<&str> {
+pub fn element(error: &RunError) -> Option<&str> {
     let (owner, _) = error.coordinate.as_deref()?.rsplit_once('.')?;
     Some(owner)
 }
 
 /// A length of time in the unit that is easiest to read.
-fn duration(seconds: f64) -> String {
+pub fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s >= 1.0 => (s, "s"),
         s if s >= 1e-3 => (s * 1e3, "ms"),
@@ -238,33 +238,5 @@ fn cause(cause: Cause, header: &Header) -> String {
         Cause::Kink(index) => format!("kink: {}", named(&header.kinks, index)),
         Cause::EventFunction(index) => format!("event: {}", named(&header.event_functions, index)),
         Cause::End => "end of the run".into(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations_have_their_unit() {
-        assert_eq!(duration(0.12), "120 ms");
-        assert_eq!(duration(1.5e-4), "150 µs");
-        assert_eq!(duration(2.0), "2 s");
-        assert_eq!(duration(45.6957e-6), "45.7 µs");
-        assert_eq!(duration(1234.0), "1234 s");
-    }
-
-    #[test]
-    fn the_element_at_fault_is_named() {
-        let mut error = RunError {
-            kind: ErrorKind::Run,
-            t: Some(0.1),
-            coordinate: Some("man/head.phi".into()),
-            cause: "a curve".into(),
-            message: "at t = 0.1 s it breaks; likely cause: a curve".into(),
-        };
-        assert_eq!(element(&error), Some("man/head"));
-        error.coordinate = None;
-        assert_eq!(element(&error), None);
     }
 }

@@ -333,7 +333,7 @@ fn signals(outputs: usize, kept: &mut Vec<Kept>) -> Vec<usize> {
 }
 
 /// A number with four digits; a large number as an integer.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let size = value.abs();
     match size {
         0.0 => "0".into(),
@@ -342,19 +342,5 @@ fn digits(value: f64) -> String {
             format!("{value:.*}", decimals.max(0) as usize)
         }
         _ => format!("{value:.*e}", DIGITS as usize - 1),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::digits;
-
-    #[test]
-    fn values_have_four_digits() {
-        assert_eq!(digits(0.0), "0");
-        assert_eq!(digits(559.812), "559.8");
-        assert_eq!(digits(-0.0123456), "-0.01235");
-        assert_eq!(digits(123456.7), "123457");
-        assert_eq!(digits(1.23456e-9), "1.235e-9");
     }
 }

@@ -18,7 +18,7 @@ const SAME: f64 = 1e-3;
 const SMALL: f64 = 1e-9;
 
 /// The note that there are no forces.
-const APART: &str = "forces between bodies are not shown: other outputs, computed beside them, differ from those of the run";
+pub const APART: &str = "forces between bodies are not shown: other outputs, computed beside them, differ from those of the run";
 
 /// The meshes of a model, and the notes about them.
 pub fn meshes_of(found: &Found) -> (Vec<Mesh>, Vec<String>) {
@@ -38,7 +38,7 @@ pub struct Shown<'a> {
     /// Its meshes, read when a scene first needs them.
     meshes: OnceCell<Vec<Mesh>>,
     /// Notes about meshes and forces that were not printed yet.
-    notes: RefCell<Vec<String>>,
+    pub notes: RefCell<Vec<String>>,
     /// Its equations, prepared when a scene first needs them.
     engine: OnceCell<Prepared>,
 }
@@ -165,62 +165,5 @@ impl<'a> Shown<'a> {
             let far = |written: &f64| (written - value).abs() > SAME * largest + SMALL;
             !column.values.get(row).is_some_and(far)
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::super::model_argument::find;
-    use super::super::super::prepare::prepare;
-    use super::*;
-    use crate::simulation::run;
-
-    /// Forces of other equations are left out, with one note: outputs that are computed at the states of the run, beside those that the scene asks for, are not those of
-    /// the run.
-    #[test]
-    fn forces_are_left_out_where_outputs_are_not_those_of_the_run() {
-        let Ok(found) = find("child-seat") else {
-            panic!("no child-seat");
-        };
-        let terminal = Terminal::of_test();
-        let job = Job {
-            duration: Some(40e-3),
-            ..Job::default()
-        };
-        let Ok(engine) = prepare(&found, &terminal) else {
-            panic!("no equations");
-        };
-        let whole = run(&*engine, &job, &mut |_| ());
-        assert!(whole.result.is_ok() && whole.table.columns.len() > 3);
-        // the scene with forces, twice, and the notes
-        let shown = |recording: &Recording| {
-            let shown = Shown::new(&found, &job);
-            let mut with_forces = [0, 1].map(|_| {
-                let scene = shown.scene(recording, &recording.instants, &terminal);
-                let scene = scene.unwrap_or_else(|_| panic!("no scene"));
-                let mut pulls = scene.lines.iter().flat_map(|line| &line.pulls).flatten();
-                pulls.any(|pull| *pull > 0.0)
-            });
-            with_forces.sort_unstable();
-            (with_forces, shown.notes.take())
-        };
-        assert_eq!(shown(&whole), ([true; 2], Vec::new()));
-        // the column of a force, off by less than what other roundings make, and by more
-        let column = (whole.table.columns.iter())
-            .position(|column| column.name == "lap belt force")
-            .unwrap();
-        let largest = whole.table.columns[column]
-            .values
-            .iter()
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
-        let off = |share: f64| {
-            let mut other = whole.clone();
-            let values = &mut other.table.columns[column].values;
-            let middle = values.len() / 2;
-            values[middle] += share * largest;
-            shown(&other)
-        };
-        assert_eq!(off(1e-6), ([true; 2], Vec::new()));
-        assert_eq!(off(1e-2), ([false; 2], vec![APART.to_owned()]));
     }
 }

@@ -1,7 +1,8 @@
 //! A simplified child in a child seat, and motions of it, for the tests of the pictures.
 
-use super::{Arrangement, Instant, View, draw};
-use crate::scene::Scene;
+use bryant::picture::figure::figures;
+use bryant::picture::{Arrangement, Figure, Instant, View, draw};
+use bryant::scene::Scene;
 use bryant_generator::law::types::{Against, Belt, BeltLength, Contact};
 use bryant_generator::model::*;
 
@@ -282,7 +283,7 @@ fn every_picture_of_ours_can_be_had_as_png() {
         ("row", stick(Arrangement::Row, View::Side)),
         ("overlay", stick(Arrangement::Overlay, View::Side)),
         ("oblique", stick(Arrangement::Row, View::Oblique)),
-        ("diagram", super::work_precision::tests::diagram().drawing()),
+        ("diagram", super::work_precision::diagram().drawing()),
     ];
     for (name, drawing) in pictures {
         let png = drawing.png().unwrap();
@@ -314,8 +315,8 @@ fn a_plane_is_drawn_as_far_as_it_extends() {
         let mut instants = lurch(3);
         instants[2].coordinates[0] = 4.0;
         let scene = Scene::new(&model, &names(), &[], &instants, &[]).unwrap();
-        let figures = super::figure::figures(&scene, View::Side, None);
-        let width = |figure: &super::Figure| {
+        let figures = figures(&scene, View::Side, None);
+        let width = |figure: &Figure| {
             let plane = figure.planes[0];
             assert!((plane.normal[1] - 1.0).abs() < 1e-12);
             plane.to[0] - plane.from[0]

@@ -1,0 +1,12 @@
+mod check;
+mod conclusion;
+mod difference;
+mod fastest;
+mod front;
+mod norm;
+mod plan;
+mod point;
+mod reading;
+mod report;
+mod schedule;
+mod target;

@@ -1,0 +1,3 @@
+mod plate;
+mod shape;
+mod turn;

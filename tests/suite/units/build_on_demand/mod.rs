@@ -1,0 +1,3 @@
+mod cache;
+mod message;
+mod rustc;

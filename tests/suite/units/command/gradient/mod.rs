@@ -1,0 +1,2 @@
+mod slopes;
+mod table;
