@@ -1219,7 +1219,7 @@ fn every_reason_has_a_scene_that_trips_it_and_one_that_does_not() {
         source!("tests/suite/sweep/reasons.rs"),
         source!("runtime/tests/it/simulate.rs"),
         source!("runtime/tests/it/program.rs"),
-        source!("src/command/error_report.rs"),
+        source!("tests/suite/units/command/error_report.rs"),
         source!("engine/tests/it/onset.rs"),
     ];
     for (name, reason, pair) in PAIRS {

@@ -27,7 +27,8 @@ fn a_free_motion_is_hidden_and_an_unstable_one_grows() {
     assert_eq!(modes(&[f64::NAN], 1, &[]).unwrap_err(), NoModes::NotFinite);
 }
 
-/// Two equal oscillators beside each other, in coordinates that mix them: each is a shape, and orthogonal in the mass matrix.
+/// Two equal oscillators beside each other, in coordinates that mix them: each is a shape, and orthogonal in the mass
+/// matrix.
 #[test]
 fn shapes_of_rates_that_coincide_are_orthogonal_in_the_mass_matrix() {
     // S = [2 1; 1 2], K = 9 S

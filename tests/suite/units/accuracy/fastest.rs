@@ -2,8 +2,8 @@ use bryant::accuracy::fastest::fastest;
 use bryant::equations::Engine;
 use bryant_runtime::program::Job;
 
-/// A rod of J = 0.6 kg m² whose joint has friction of 2 N m, smooth below a rate of 0.01 rad/s: c = 200 N m s/rad at rest. The spring
-/// of 60 N m/rad alone would give 10 1/s.
+/// A rod of J = 0.6 kg m² whose joint has friction of 2 N m, smooth below a rate of 0.01 rad/s: c = 200 N m s/rad at
+/// rest. The spring of 60 N m/rad alone would give 10 1/s.
 #[test]
 fn what_makes_a_scene_stiff_is_named() {
     let text = "\

@@ -75,7 +75,8 @@ fn what_would_take_too_long_is_skipped_and_says_so() {
     );
 }
 
-/// A run of 0.4 s after one of 1 ms, far more than predicted: it is stopped at first, and run again when nothing else is left.
+/// A run of 0.4 s after one of 1 ms, far more than predicted: it is stopped at first, and run again when nothing else
+/// is left.
 #[test]
 fn what_was_predicted_wrongly_is_run_with_more_time() {
     let mut all = [series(Formula::Tsit5)];

@@ -40,7 +40,8 @@ fn words(line: &str) -> Vec<String> {
     words
 }
 
-/// All examples are valid. Their models are bundled, so that parameters and outputs are checked, or are files of the reader.
+/// All examples are valid. Their models are bundled, so that parameters and outputs are checked, or are files of the
+/// reader.
 #[test]
 fn examples_of_help_are_commands() {
     let whole = Cli::command();

@@ -94,7 +94,8 @@ fn columns_are_drawn_and_named() {
         assert!(svg.contains(word), "{word}: {svg}");
     }
     assert!(drawing.png().is_ok());
-    // lines begin at their numbers, not at whole pixels: 0 is 3 % of the range of 0.05 to the right of the frame's left side
+    // lines begin at their numbers, not at whole pixels: 0 is 3 % of the range of 0.05 to the right of the frame's left
+    // side
     let [left, across] = [LEFT, WIDTH - LEFT - RIGHT];
     let x = left + across * 0.03 / 1.06;
     assert!(svg.contains(&format!("points=\"{:.2},", x)), "{x}: {svg}");

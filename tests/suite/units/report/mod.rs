@@ -5,7 +5,8 @@ use bryant::report::{modes_page, page};
 use bryant_picture::text::typeset;
 use serde_json::json;
 
-/// The page writes units as pictures and terminals do: what its script replaces, read from its text, is what the program replaces.
+/// The page writes units as pictures and terminals do: what its script replaces, read from its text, is what the
+/// program replaces.
 #[test]
 fn the_page_writes_units_as_the_program_does() {
     let script = include_str!("../../../../src/report/common.js");

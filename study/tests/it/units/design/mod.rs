@@ -105,7 +105,8 @@ fn the_last_stratum_of_a_billion_rows_keeps_its_points() {
 
 #[test]
 fn means_and_variances_are_within_their_standard_errors() {
-    // n independent uniform numbers have the mean ½ ± 1/√(12 n) and the variance 1/12 ± √(1/180 n); the other designs are better
+    // n independent uniform numbers have the mean ½ ± 1/√(12 n) and the variance 1/12 ± √(1/180 n); the other designs
+    // are better
     let n = 8192u64;
     for design in [
         RandomDesign::MonteCarlo,
@@ -206,8 +207,8 @@ fn seeds_give_other_rows() {
 
 #[test]
 fn sobol_integrates_better_than_chance() {
-    // ∫ Π (1 + (u_i − ½)/(i + 1)) = 1; a scrambled net of 2^12 points has an error of about n^-1.5 √log^(d−1), independent points
-    // n^-0.5/√12
+    // ∫ Π (1 + (u_i − ½)/(i + 1)) = 1; a scrambled net of 2^12 points has an error of about n^-1.5 √log^(d−1),
+    // independent points n^-0.5/√12
     let n = 4096u64;
     let points = rows(&random(RandomDesign::Sobol, n, 6));
     let term = |point: &Vec<f64>| -> f64 {

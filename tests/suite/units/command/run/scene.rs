@@ -5,8 +5,8 @@ use bryant::command::terminal::{Kept, Terminal};
 use bryant::simulation::{Recording, run};
 use bryant_runtime::program::Job;
 
-/// Forces of other equations are left out, with one note: outputs that are computed at the states of the run, beside those that the scene asks for, are not those of
-/// the run.
+/// Forces of other equations are left out, with one note: outputs that are computed at the states of the run, beside
+/// those that the scene asks for, are not those of the run.
 #[test]
 fn forces_are_left_out_where_outputs_are_not_those_of_the_run() {
     let Ok(found) = find("child-seat") else {
