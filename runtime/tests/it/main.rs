@@ -1,4 +1,5 @@
-//! The runtime as its users call it, in one program. What the library has compiled for its own scalars is not compiled again.
+//! The runtime as its users call it, in one program. What the library has compiled for its own scalars is not compiled
+//! again.
 
 #![cfg(feature = "std")]
 
