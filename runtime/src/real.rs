@@ -262,8 +262,8 @@ pub trait Task {
     fn run(self) -> Self::Output;
 }
 
-/// An array of what a function gives for each index, from the first to the last; `blank` stands in each place before. It
-/// is a plain loop, which is compiled for each function; behind [`core::array::from_fn`] are ten functions more.
+/// An array of what a function gives for each index, from the first to the last; `blank` stands in each place before.
+/// It is a plain loop, which is compiled for each function; behind [`core::array::from_fn`] are ten functions more.
 #[inline(always)]
 pub(crate) fn by_index<R: Copy, const N: usize>(
     blank: R,
@@ -278,8 +278,8 @@ pub(crate) fn by_index<R: Copy, const N: usize>(
     all
 }
 
-/// An array of what a small function gives for each entry, from the first to the last: a plain loop, as [`by_index`]. It
-/// calls the function at two places, so a long one would not be inlined.
+/// An array of what a small function gives for each entry, from the first to the last: a plain loop, as [`by_index`].
+/// It calls the function at two places, so a long one would not be inlined.
 #[inline(always)]
 pub(crate) fn mapped<A: Copy, R: Copy, const N: usize>(
     entries: [A; N],

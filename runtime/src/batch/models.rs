@@ -42,7 +42,8 @@ impl<'a, T: Several> Models<'a, T> {
     }
 }
 
-/// The conditions and kinks of so many lanes. This is a function of its own, so that it is compiled once for all scalars.
+/// The conditions and kinks of so many lanes. This is a function of its own, so that it is compiled once for all
+/// scalars.
 fn schedules(family: &impl Family, lanes: usize) -> Vec<Box<dyn Schedule<f64> + '_>> {
     (0..lanes).map(|_| family.schedule::<f64>()).collect()
 }
