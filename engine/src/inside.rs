@@ -5,9 +5,16 @@ pub use crate::native::{Call, Compiled, compile, target, there};
 
 use crate::evaluate::Evaluator;
 use crate::interpret;
-use crate::model::Engine;
+use crate::model::{Engine, WithoutJacobian};
 use bryant_generator::program::{List, Method};
-use bryant_runtime::Real;
+use bryant_runtime::{Adjustable, Family, Real};
+
+/// A model by the interpreter and by machine code, without a Jacobian, as batches have it: with one, its equations would be
+/// compiled over dual numbers of the scalar.
+pub fn for_batch<T: Real>(engine: &Engine) -> [Box<dyn Adjustable<T> + '_>; 2] {
+    let interpreted = Box::new(WithoutJacobian(engine.interpreted::<T>()));
+    [interpreted, Family::for_batch(engine)]
+}
 
 /// The results of a list by the interpreter. `inputs` are the parameters, the values derived from them, the time and the state.
 pub fn interpreted(list: &List, inputs: [&[f64]; 4]) -> Vec<f64> {

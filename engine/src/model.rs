@@ -276,7 +276,7 @@ impl Varying {
 
 /// A model over one scalar without a Jacobian, so that its equations are not compiled over dual numbers. A batch never
 /// uses this type.
-struct WithoutJacobian<M>(M);
+pub(crate) struct WithoutJacobian<M>(pub(crate) M);
 
 impl<T: Real, E: Execute<T>> Machine<T, E> {
     fn new(shared: Arc<Shared>, execute: E) -> Self {

@@ -194,10 +194,10 @@ fn the_end_moves_with_the_parameters() {
 #[test]
 fn more_digits_than_a_double_s_are_right() {
     let engine = stopping();
-    let mut model = engine.over::<DoubleDouble>();
+    let mut model = Family::over::<DoubleDouble>(&engine);
     let c = DoubleDouble::from_f64;
     model.set_parameters(&[c(1.0), c(3.0)]);
-    let place = outputs(&model, 1.0)[0];
+    let place = outputs(&*model, 1.0)[0];
     assert!((c(6.0) * place - c(1.0)).to_f64().abs() <= 1e-30);
 }
 

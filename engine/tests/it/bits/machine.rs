@@ -2,6 +2,7 @@
 
 use super::common::{InLanes, Near, Single, compare, engine};
 use bryant_engine::Engine;
+use bryant_engine::inside::for_batch;
 use bryant_generated::MODELS;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
 use bryant_runtime::{Dual, Fast, Several, Width};
@@ -32,7 +33,11 @@ fn fast() {
 
 #[test]
 fn duals() {
-    check::<Dual<f64>>();
+    for bundled in MODELS {
+        let engine = engine(bundled.entry.info.name, true);
+        let [mut expected, mut found] = for_batch::<Dual<f64>>(&engine);
+        compare::<Dual<f64>, Single>(&mut *expected, &mut *found);
+    }
 }
 
 /// Compares all models over lanes, and over dual numbers of lanes.
@@ -43,10 +48,10 @@ impl OfAnyWidth for OfLanes {
     fn run<T: Several<One = f64>>(self) {
         for bundled in MODELS {
             let engine = engine(bundled.entry.info.name, true);
-            let mut expected = engine.interpreted::<T>();
-            compare::<T, InLanes>(&mut expected, &mut Engine::over::<T>(&engine));
-            let mut expected = engine.interpreted::<Dual<T>>();
-            compare::<Dual<T>, InLanes>(&mut expected, &mut Engine::over::<Dual<T>>(&engine));
+            let [mut expected, mut found] = for_batch::<T>(&engine);
+            compare::<T, InLanes>(&mut *expected, &mut *found);
+            let [mut expected, mut found] = for_batch::<Dual<T>>(&engine);
+            compare::<Dual<T>, InLanes>(&mut *expected, &mut *found);
         }
     }
 }
@@ -71,8 +76,8 @@ impl OfAnyWidth<f32> for OfSingles {
                 continue;
             }
             let engine = engine(name, true);
-            let mut expected = engine.interpreted::<T>();
-            compare::<T, InLanes>(&mut expected, &mut Engine::over::<T>(&engine));
+            let [mut expected, mut found] = for_batch::<T>(&engine);
+            compare::<T, InLanes>(&mut *expected, &mut *found);
         }
     }
 }

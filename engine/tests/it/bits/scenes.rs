@@ -4,13 +4,14 @@
 
 use super::common::Writes;
 use bryant_engine::Engine;
+use bryant_engine::inside::for_batch;
 use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Pace, Settings};
 use bryant_runtime::real::Array8;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
 use bryant_runtime::{
-    Adjustable, Dual, Dynamics, Formula, Method as RunMethod, Real, Reason, Response, Section,
+    Dual, Dynamics, Formula, Method as RunMethod, Real, Reason, Response, Section,
     Settings as RunSettings, Several, Tolerances, Width, simulate,
 };
 use std::ops::ControlFlow;
@@ -78,18 +79,18 @@ fn same<T: Real>(what: &str, lanes: &Lanes<T>, one: &[T], other: &[T]) {
 
 fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
     let engine = engine(name);
-    let (code, interpreted) = (engine.over::<T>(), engine.interpreted::<T>());
+    let [interpreted, code] = for_batch::<T>(&engine);
     let info = engine.info();
     let weyl = &mut Weyl(0.1);
     let nought = T::from_f64(0.0);
     for round in 0..12 {
         let reach = [0.0, 1e-3, 0.03, 0.2][round % 4];
-        let y = state::<T>(&code, lanes, reach, weyl);
+        let y = state::<T>(&*code, lanes, reach, weyl);
         let t = (lanes.of)(&[(); MOST_LANES].map(|()| 0.08 * (1.0 + weyl.next())));
         let compare = |what: &str, count: usize, run: &Writes<'_, T>| {
             let [mut found, mut wanted] = [vec![nought; count], vec![nought; count]];
-            run(&code, &mut found);
-            run(&interpreted, &mut wanted);
+            run(&*code, &mut found);
+            run(&*interpreted, &mut wanted);
             same(&format!("{name}: {what}"), lanes, &found, &wanted);
         };
         compare("derivative", y.len(), &|m, out| m.derivative(t, &y, out));
@@ -106,7 +107,7 @@ fn check<T: Real>(name: &str, lanes: &Lanes<T>) {
 fn some_outputs<T: Real>(name: &str, lanes: &Lanes<T>, engine: &Engine, t: T, y: &[T]) {
     let count = engine.info().outputs.len();
     let [mut some, mut all] = [(); 2].map(|()| vec![T::from_f64(0.0); count]);
-    let mut chosen = engine.over::<T>();
+    let [_, mut chosen] = for_batch::<T>(engine);
     chosen.outputs(t, y, &mut all);
     let each: Vec<usize> = (0..count).collect();
     for wanted in [&[2, 0, 2][..], &[count - 1], &[], &each] {
