@@ -2,7 +2,6 @@
 //! the last bit.
 
 use bryant_engine::Engine;
-use bryant_generated::child_seat;
 use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Entry as RowsEntry, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
@@ -216,10 +215,9 @@ fn runs_are_the_same_in_every_width() {
     }
 }
 
-/// The tests of the engine compare single evaluations.
-#[test]
-fn rows_of_generated_rust_have_the_bits_of_the_engine() {
-    let engine = engine(SEAT);
+/// The rows of a model by its generated Rust, and by the engine.
+fn the_same_rows_by_rust(path: &str, entry: RowsEntry) {
+    let engine = engine(path);
     let info = engine.info();
     let rows = rows(info, 9);
     let job = Job {
@@ -228,12 +226,24 @@ fn rows_of_generated_rust_have_the_bits_of_the_engine() {
             .collect(),
         ..job(info, 0.06, Width::widest())
     };
-    let entry = RowsEntry::of::<child_seat::Mechanism<f64>>();
     let [ours, theirs] = [engine.rows(&job, &rows), (entry.rows)(&job, &rows)]
         .map(|found| found.expect("registers of the widest kind"));
     let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&ours.responses), bits(&theirs.responses));
     assert!(ours.rows.iter().all(|row| row.status == Status::Done));
+}
+
+/// The tests of the engine compare single evaluations. Over all registers and their dual numbers, the compiler takes long for a large model: with
+/// `--cfg bryant_nightly` there is one.
+#[test]
+fn rows_of_generated_rust_have_the_bits_of_the_engine() {
+    let entry = RowsEntry::of::<bryant_generated::sled_pendulum::Mechanism<f64>>();
+    the_same_rows_by_rust("../models/sled-pendulum.yaml", entry);
+    #[cfg(bryant_nightly)]
+    the_same_rows_by_rust(
+        SEAT,
+        RowsEntry::of::<bryant_generated::child_seat::Mechanism<f64>>(),
+    );
 }
 
 #[test]
