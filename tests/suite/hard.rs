@@ -1,11 +1,12 @@
-//! Every hard case is a test by its name: `cargo test --test hard` runs one in three, chosen at random, or with a word of a name behind it all of that
-//! name. `bryant stability` runs all.
+//! Every hard case is a test by its name: `cargo test --test hard` runs one in three, and one in twelve of those over a
+//! million steps, chosen at random; with a word of a name behind it, all of that name. `bryant stability` runs all.
 
 #[path = "share.rs"]
 mod share;
 
 use bryant::stability::report::text::text;
 use bryant::stability::{Scenes, run_case};
+use bryant_hard::Case;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::sync::Arc;
 
@@ -15,7 +16,12 @@ fn main() {
     let cases = bryant_hard::cases();
     let chosen = match arguments.filter {
         Some(_) => cases,
-        None => share::share(3, cases),
+        None => {
+            // half of the time of all cases
+            let long = |case: &Case| case.name.contains("a million steps");
+            let (long, others) = cases.into_iter().partition::<Vec<_>, _>(long);
+            [share::share(3, others), share::share(12, long)].concat()
+        }
     };
     let trials = chosen.into_iter().map(|case| {
         let scenes = Arc::clone(&scenes);
