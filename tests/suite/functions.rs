@@ -17,6 +17,20 @@ fn ball() -> tempfile::TempDir {
     directory
 }
 
+/// It waits, so that other tests go on in the meantime.
+#[test]
+fn a_function_that_does_not_return_ends_the_run() {
+    let directory = ball();
+    let path = directory.path().join("drag.rs");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (head, body) = text.split_once("-> Output<T> {").expect("a function");
+    let wait = "loop { std::thread::sleep(std::time::Duration::from_millis(50)); }\n#[allow(unreachable_code)]";
+    std::fs::write(&path, format!("{head}-> Output<T> {{ {wait} {{ {body} }}")).unwrap();
+    let (_, error) = call(directory.path(), &["run", "ball.yaml", "--no-files"], 3);
+    let said = "(drag.rs) does not return: one call of it has taken 10 s";
+    assert!(error.contains(said) && error.contains("help: "), "{error}");
+}
+
 /// A ball in air lands before and below a ball without drag: v_t² = 2 m g/(ρ c_d A) = 134 m²/s².
 #[test]
 fn a_force_of_the_users_own_runs_from_its_page() {

@@ -159,7 +159,7 @@ fn criteria_and_files_of_tests_do_not_depend_on_units() {
         let csv = format!("{units}.csv");
         let arguments = [
             "run",
-            "frontal",
+            "child-restraint",
             "--units",
             units,
             "--no-files",
@@ -207,7 +207,7 @@ fn criteria_and_files_of_tests_do_not_depend_on_units() {
     // a table in other units is one of its own, which may be replaced
     let arguments = [
         "run",
-        "frontal",
+        "child-restraint",
         "--no-files",
         "--no-verify",
         "--csv",

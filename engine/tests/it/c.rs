@@ -415,12 +415,12 @@ fn models() -> Vec<PathBuf> {
     found
 }
 
-/// Compares one in five of every second model, beginning with this one: most of the time goes into compiling.
+/// Compares one in eight of every second model, beginning with this one: most of the time goes into compiling.
 fn compare_models(first: usize) {
     let fuses = is_fused();
     let models = models();
     assert!(models.len() > 50, "{models:?}");
-    for path in share(5, models.into_iter().skip(first).step_by(2)) {
+    for path in share(8, models.into_iter().skip(first).step_by(2)) {
         let (model, _) =
             bryant_generator::read(&path).unwrap_or_else(|problems| panic!("{problems}"));
         let mut config = Config::new();
