@@ -15,20 +15,11 @@ fn the_driver_begins_at_rest_and_is_held() {
     assert!(largest(&held, "bag on the head") > 0.0);
     // each device has its effect
     let chest = "chest acceleration resultant";
-    let (loose, _) = run(
-        "frontal",
-        &["--set", "pulled_in=0", "--no-verify", "--accuracy", "1%"],
-    );
+    let (loose, _) = run("frontal", &["--set", "pulled_in=0", "--no-verify"]);
     assert!(largest(&loose, chest) > largest(&held, chest));
-    let (stiff, _) = run(
-        "frontal",
-        &["--set", "limit=20 kN", "--no-verify", "--accuracy", "1%"],
-    );
+    let (stiff, _) = run("frontal", &["--set", "limit=20 kN", "--no-verify"]);
     assert!(largest(&stiff, "belt at the reel") > reel);
-    let (bare, _) = run(
-        "frontal",
-        &["--set", "gas=0", "--no-verify", "--accuracy", "1%"],
-    );
+    let (bare, _) = run("frontal", &["--set", "gas=0", "--no-verify"]);
     assert_eq!(largest(&bare, "bag on the head"), 0.0);
     assert!(largest(&bare, "head excursion") > largest(&held, "head excursion"));
 }
