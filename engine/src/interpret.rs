@@ -381,7 +381,7 @@ pub fn alone(list: &List, inputs: [&[f64]; 4]) -> Vec<f64> {
     results.map(|&place| frame[place as usize]).collect()
 }
 
-/// The number of runs of one kind of operation in a list, in its own order and in that of [`in_runs`].
+/// The number of runs of one kind of operation in a list, in its own order and in that in which they are executed.
 pub fn count_runs(list: &List) -> [usize; 2] {
     let runs = |operations: &mut dyn Iterator<Item = Operation>| {
         let kinds: Vec<Kind> = operations.map(Kind::of).collect();
