@@ -180,13 +180,9 @@ impl Engine {
         let made = |width| -> Box<dyn Lanes> {
             with_width(width, Make(self)).unwrap_or_else(|| unreachable!("the width is there"))
         };
-        // a row alone has the bits of a lane
-        let single = match Width::One.there() && Width::widest().fuses() {
-            true => Width::One,
-            false => Width::Plain,
-        };
         let worker = |_| Worker {
-            one: made(single),
+            // a row alone has the bits of a lane
+            one: made(Width::One),
             many: made(Width::widest()),
         };
         let mut batch = Batch {

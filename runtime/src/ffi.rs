@@ -15,9 +15,9 @@
 )]
 
 use crate::dynamics::{Adjustable, Differentiable, Dynamics, Owned};
-use crate::real::lanes::{Alone, Lanes};
+use crate::real::lanes::{Alone, Emulated, Fused, Instructions, Lanes};
 use crate::real::{Base, Form, Task};
-use crate::{DoubleDouble, Dual, Fast, Model, ParameterSet, Real, Section, Width};
+use crate::{DoubleDouble, Dual, Fast, Model, ParameterSet, Real, Section};
 use core::ffi::c_void;
 use core::marker::PhantomData;
 use std::cell::RefCell;
@@ -25,7 +25,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Version of the exported functions. It changes whenever a library that was built for an earlier version would not
 /// work.
-pub const VERSION: u32 = 4;
+pub const VERSION: u32 = 5;
 
 /// The value that a call returns on success.
 pub const DONE: i32 = 0;
@@ -45,7 +45,7 @@ pub trait Adapter<const ARGUMENTS: usize, const RESULTS: usize> {
 }
 
 /// A function of the user over the scalar with the number `base`, with slopes where `order` is 1. `None` where there is
-/// no such scalar or order, or where the processor lacks its instructions.
+/// no such scalar or order.
 pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
     base: u32,
     order: u32,
@@ -57,17 +57,17 @@ pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
             _ => None,
         }
     }
+    let fuses = <Alone<f64, Fused> as Instructions>::there();
     match *Base::ALL.get(base as usize)? {
         Base::Double => over::<F, f64, A, R>(order),
         Base::Single => over::<F, f32, A, R>(order),
         Base::Fast => over::<F, Fast, A, R>(order),
         Base::DoubleDouble => over::<F, DoubleDouble, A, R>(order),
-        // a scalar of fused registers may only be made where the processor has the instructions
-        Base::Lane | Base::SingleLane if !Width::One.there() => None,
-        Base::Lane => over::<F, Lanes<Alone<f64, true>>, A, R>(order),
-        Base::SingleLane => over::<F, Lanes<Alone<f32, true>>, A, R>(order),
-        Base::PlainLane => over::<F, Lanes<Alone<f64, false>>, A, R>(order),
-        Base::PlainSingleLane => over::<F, Lanes<Alone<f32, false>>, A, R>(order),
+        // the scalar of fused registers may only be made where the processor has the instructions
+        Base::Lane if fuses => over::<F, Lanes<Alone<f64, Fused>>, A, R>(order),
+        Base::Lane => over::<F, Lanes<Alone<f64, Emulated>>, A, R>(order),
+        Base::SingleLane if fuses => over::<F, Lanes<Alone<f32, Fused>>, A, R>(order),
+        Base::SingleLane => over::<F, Lanes<Alone<f32, Emulated>>, A, R>(order),
     }
 }
 

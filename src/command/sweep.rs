@@ -143,7 +143,7 @@ impl Arguments {
         let program = Program {
             model: found.model.digest.clone(),
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            arithmetic: arithmetic(study.run.precision, width, job.estimate),
+            arithmetic: arithmetic(study.run.precision, job.estimate),
         };
         let folder = Folder::open(&path, &study, &program).map_err(folder_error)?;
         let _lock = folder.lock(shard).map_err(folder_error)?;
@@ -274,12 +274,10 @@ pub(super) fn kept_error(error: KeptError) -> Error {
 }
 
 /// The arithmetic of the results in words; results of different arithmetic must not be mixed.
-fn arithmetic(precision: Precision, width: Width, estimate: bool) -> String {
-    let rounding = match (precision, width.fuses()) {
-        (Precision::Double, true) => "f64, fused",
-        (Precision::Double, false) => "f64, not fused",
-        (Precision::Single, true) => "f32, fused",
-        (Precision::Single, false) => "f32, not fused",
+fn arithmetic(precision: Precision, estimate: bool) -> String {
+    let rounding = match precision {
+        Precision::Double => "f64, fused",
+        Precision::Single => "f32, fused",
     };
     match estimate {
         true => rounding.to_owned(),
@@ -319,7 +317,7 @@ pub fn of_study(study: &Path) -> PathBuf {
 }
 
 fn lanes(text: &str) -> Result<Width, String> {
-    let width = Width::named(text).ok_or("it is 8, 4, 2, 1 or plain")?;
+    let width = Width::named(text).ok_or("it is 8, 4, 2 or 1")?;
     match width.there() {
         true => Ok(width),
         false => Err("this processor has no such registers".into()),

@@ -325,7 +325,7 @@ fn no_lane_passes_a_corner_unseen() {
                 tolerance,
                 wrong: Vec::new(),
             };
-            let widths = [Width::Four, Width::Plain];
+            let widths = [Width::Four, Width::One];
             let done = widths.into_iter().find_map(|width| {
                 let (engine, rows) = (&engine, &mut rows);
                 with_width(width, Batch { engine, rows })

@@ -264,7 +264,7 @@ fn wrong_in_lanes(pace: batch::Pace) -> Vec<String> {
             wrong: Vec::new(),
         };
         let engine = &engine;
-        let widths = [Width::Four, Width::Plain];
+        let widths = [Width::Four, Width::One];
         let done = widths.into_iter().find_map(|width| {
             with_width(
                 width,

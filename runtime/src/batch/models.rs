@@ -5,7 +5,7 @@
 //! behind it is compiled again.
 
 use crate::real::Several;
-use crate::real::lanes::{Alone, Lanes, OfAnyWidth, Width};
+use crate::real::lanes::{OfAnyWidth, Width};
 use crate::{Adjustable, Dual, Family, Info, Real, Schedule};
 
 /// The models of one family that a batch needs.
@@ -52,13 +52,13 @@ fn schedules(family: &impl Family, lanes: usize) -> Vec<Box<dyn Schedule<f64> + 
 pub(super) trait Numbers {
     /// The scalar of one lane.
     type One: Real;
-    /// The scalar of [`Width::Plain`].
-    type Plain: Several<One = Self::One>;
     /// The scalar of [`Width::One`], [`Width::Two`] and [`Width::Four`]. x86-64 processors with fused multiply-add have
     /// registers of four lanes, 64-bit ARM processors registers of two, and a lane has the same bits in each; so the
     /// time loop is not compiled separately for one lane. On other processors, which have no such registers, this
     /// scalar is one lane.
     type Narrow: Several<One = Self::One>;
+    /// The scalar of [`Width::One`] on x86-64 processors without fused multiply-add, where a function does it.
+    type OneLane: Several<One = Self::One>;
     /// The scalar of [`Width::Eight`]; on processors that have no such registers, that of [`Width::One`].
     type Wide: Several<One = Self::One>;
     /// The schedule of one lane, if the numbers have a derivative.
@@ -74,35 +74,56 @@ pub(super) struct Duals<N>(N);
 
 #[cfg(target_arch = "x86_64")]
 mod registers {
-    use crate::real::lanes::{Avx2, Avx2Singles, Avx512, Avx512Singles, Lanes};
+    use crate::real::lanes::{
+        Alone, Avx2, Avx2Singles, Avx512, Avx512Singles, Emulated, Lanes, Width,
+    };
     pub type Narrow = Lanes<Avx2>;
+    pub type OneLane = Lanes<Alone<f64, Emulated>>;
     pub type Wide = Lanes<Avx512>;
     pub type NarrowOfSingles = Lanes<Avx2Singles>;
+    pub type OneSingle = Lanes<Alone<f32, Emulated>>;
     pub type WideOfSingles = Lanes<Avx512Singles>;
+
+    /// Whether this processor has the narrow registers.
+    pub fn narrow_is_there() -> bool {
+        Width::Four.there()
+    }
 }
 
 #[cfg(target_arch = "aarch64")]
 mod registers {
     use crate::real::lanes::{Lanes, Neon, NeonSingles};
     pub type Narrow = Lanes<Neon>;
+    pub type OneLane = Narrow;
     pub type Wide = Narrow;
     pub type NarrowOfSingles = Lanes<NeonSingles>;
+    pub type OneSingle = NarrowOfSingles;
     pub type WideOfSingles = NarrowOfSingles;
+
+    pub fn narrow_is_there() -> bool {
+        true
+    }
 }
 
 #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 mod registers {
-    use crate::real::lanes::{Alone, Lanes};
-    pub type Narrow = Lanes<Alone<f64, true>>;
+    use crate::real::lanes::{Alone, Emulated, Lanes};
+    pub type Narrow = Lanes<Alone<f64, Emulated>>;
+    pub type OneLane = Narrow;
     pub type Wide = Narrow;
-    pub type NarrowOfSingles = Lanes<Alone<f32, true>>;
+    pub type NarrowOfSingles = Lanes<Alone<f32, Emulated>>;
+    pub type OneSingle = NarrowOfSingles;
     pub type WideOfSingles = NarrowOfSingles;
+
+    pub fn narrow_is_there() -> bool {
+        true
+    }
 }
 
 impl Numbers for Doubles {
     type One = f64;
-    type Plain = Lanes<Alone<f64, false>>;
     type Narrow = registers::Narrow;
+    type OneLane = registers::OneLane;
     type Wide = registers::Wide;
     fn one(_: &impl Family) -> Option<Box<dyn Schedule<f64> + '_>> {
         None
@@ -111,8 +132,8 @@ impl Numbers for Doubles {
 
 impl Numbers for Singles {
     type One = f32;
-    type Plain = Lanes<Alone<f32, false>>;
     type Narrow = registers::NarrowOfSingles;
+    type OneLane = registers::OneSingle;
     type Wide = registers::WideOfSingles;
     fn one(_: &impl Family) -> Option<Box<dyn Schedule<f32> + '_>> {
         None
@@ -121,8 +142,8 @@ impl Numbers for Singles {
 
 impl<N: Numbers> Numbers for Duals<N> {
     type One = Dual<N::One>;
-    type Plain = Dual<N::Plain>;
     type Narrow = Dual<N::Narrow>;
+    type OneLane = Dual<N::OneLane>;
     type Wide = Dual<N::Wide>;
     fn one(family: &impl Family) -> Option<Box<dyn Schedule<Dual<N::One>> + '_>> {
         Some(family.schedule())
@@ -131,17 +152,17 @@ impl<N: Numbers> Numbers for Duals<N> {
 
 /// Makes models over the registers of every width. Before calling the function of a width, check [`Width::there`].
 pub(super) trait Source<N: Numbers> {
-    fn plain(&self) -> Models<'_, N::Plain>;
     fn narrow(&self) -> Models<'_, N::Narrow>;
+    fn one_lane(&self) -> Models<'_, N::OneLane>;
     fn wide(&self) -> Models<'_, N::Wide>;
 }
 
 impl<N: Numbers, F: Family> Source<N> for F {
-    fn plain(&self) -> Models<'_, N::Plain> {
+    fn narrow(&self) -> Models<'_, N::Narrow> {
         Models::new(self, N::one(self))
     }
 
-    fn narrow(&self) -> Models<'_, N::Narrow> {
+    fn one_lane(&self) -> Models<'_, N::OneLane> {
         Models::new(self, N::one(self))
     }
 
@@ -165,7 +186,7 @@ pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
     task: W,
 ) -> Option<W::Output> {
     width.there().then(|| match width {
-        Width::Plain => task.run(source.plain()),
+        Width::One if !registers::narrow_is_there() => task.run(source.one_lane()),
         Width::One | Width::Two | Width::Four => task.run(source.narrow()),
         Width::Eight => task.run(source.wide()),
     })
@@ -186,7 +207,7 @@ pub fn with_compiled_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
 
 fn with_numbers<N: Numbers, W: OfAnyWidth<N::One>>(width: Width, task: W) -> Option<W::Output> {
     width.there().then(|| match width {
-        Width::Plain => task.run::<N::Plain>(),
+        Width::One if !registers::narrow_is_there() => task.run::<N::OneLane>(),
         Width::One | Width::Two | Width::Four => task.run::<N::Narrow>(),
         Width::Eight => task.run::<N::Wide>(),
     })

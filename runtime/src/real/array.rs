@@ -10,7 +10,7 @@
 //! others: ask [`Array4::there`] and [`Array8::there`] before. Every processor runs tasks over two.
 
 #[cfg(target_arch = "x86_64")]
-use super::lanes::{Alone, Avx2, Avx512, Instructions};
+use super::lanes::{Alone, Apart, Avx2, Avx512, Instructions};
 use super::{Base, Form, Mask, Real, Task, by_index};
 use core::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
@@ -243,7 +243,7 @@ macro_rules! array {
 
 array!(
     /// Two doubles.
-    Array2, 2, 16, Alone<f64, false>
+    Array2, 2, 16, Alone<f64, Apart>
 );
 array!(
     /// Four doubles.

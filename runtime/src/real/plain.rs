@@ -4,8 +4,8 @@
 //! from `libm`. The elementary functions are those of [`lanes`](super::lanes), with products and sums rounded one after
 //! the other: the same bits on every processor and system. Those of the platform differ from one system to another.
 
-use super::lanes::Alone;
 use super::lanes::elementary::Elementary;
+use super::lanes::{Alone, Apart};
 
 /// The operations on `f64` and `f32` that `core` lacks.
 pub trait Plain: Sized {
@@ -68,7 +68,7 @@ macro_rules! plain {
 
             #[inline]
             fn sin_cos(self) -> (Self, Self) {
-                let (sine, cosine) = Elementary::sin_cos(Alone::<$float, false>::of(self));
+                let (sine, cosine) = Elementary::sin_cos(Alone::<$float, Apart>::of(self));
                 (sine.number(), cosine.number())
             }
 
@@ -76,23 +76,23 @@ macro_rules! plain {
 
             #[inline(never)]
             fn atan2(self, x: Self) -> Self {
-                let [y, x] = [self, x].map(Alone::<$float, false>::of);
+                let [y, x] = [self, x].map(Alone::<$float, Apart>::of);
                 Elementary::atan2(y, x).number()
             }
 
             #[inline(never)]
             fn exp(self) -> Self {
-                Elementary::exp(Alone::<$float, false>::of(self)).number()
+                Elementary::exp(Alone::<$float, Apart>::of(self)).number()
             }
 
             #[inline(never)]
             fn ln(self) -> Self {
-                Elementary::ln(Alone::<$float, false>::of(self)).number()
+                Elementary::ln(Alone::<$float, Apart>::of(self)).number()
             }
 
             #[inline(never)]
             fn powf(self, power: Self) -> Self {
-                let [base, power] = [self, power].map(Alone::<$float, false>::of);
+                let [base, power] = [self, power].map(Alone::<$float, Apart>::of);
                 Elementary::powf(base, power).number()
             }
         }

@@ -15,27 +15,21 @@ pub enum Base {
     Fast = 2,
     /// [`DoubleDouble`](super::DoubleDouble)
     DoubleDouble = 3,
-    /// A lane of doubles with fused products and sums: [`Width::One`](super::Width::One) and wider.
+    /// A lane of a register of doubles: products and sums are fused.
     Lane = 4,
-    /// A lane of doubles whose products and sums are not fused: [`Width::Plain`](super::Width::Plain).
-    PlainLane = 5,
-    /// A lane of singles with fused products and sums.
-    SingleLane = 6,
-    /// A lane of singles whose products and sums are not fused.
-    PlainSingleLane = 7,
+    /// A lane of a register of singles, as [`Base::Lane`].
+    SingleLane = 5,
 }
 
 impl Base {
     /// All of them, by their number.
-    pub const ALL: [Base; 8] = [
+    pub const ALL: [Base; 6] = [
         Base::Double,
         Base::Single,
         Base::Fast,
         Base::DoubleDouble,
         Base::Lane,
-        Base::PlainLane,
         Base::SingleLane,
-        Base::PlainSingleLane,
     ];
 
     const fn words(self) -> usize {
@@ -143,12 +137,8 @@ mod tests {
         there_and_back(|k| dual(DoubleDouble::new(third(k), 1e-20)));
         there_and_back(|k| dual(dual(third(k))));
         for width in Width::ALL {
-            let [double, single] = match width {
-                Width::Plain => [Base::PlainLane, Base::PlainSingleLane],
-                _ => [Base::Lane, Base::SingleLane],
-            };
-            with_width(width, Each(double));
-            with_width_of_singles(width, Each(single));
+            with_width(width, Each(Base::Lane));
+            with_width_of_singles(width, Each(Base::SingleLane));
         }
     }
 

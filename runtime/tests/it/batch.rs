@@ -463,8 +463,8 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
     let cases = all.flat_map(|method| [(method, 0.01, 40), (method, 0.04, 3 + 8)]);
     for (method, step, steps) in cases {
         let settings = fixed(method, step);
-        let doubles = doubles(Width::Plain, &settings, vec![row]);
-        let singles = singles(Width::Plain, &settings, vec![row]);
+        let doubles = doubles(Width::One, &settings, vec![row]);
+        let singles = singles(Width::One, &settings, vec![row]);
         let both = [(doubles, f64::EPSILON), (singles, f64::from(f32::EPSILON))];
         for (runs, epsilon) in both {
             let (ended, values) = runs.unwrap().remove(0);

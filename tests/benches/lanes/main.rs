@@ -230,10 +230,9 @@ fn time_of<S: Scene>(width: Option<Width>) -> Option<f64> {
     }
 }
 
-/// The widths of this processor's registers that support fused multiply-adds.
+/// The widths of this processor's registers.
 fn widths() -> impl Iterator<Item = Width> {
-    let fused = Width::ALL.into_iter().filter(|width| width.fuses());
-    fused.filter(|width| width.there())
+    Width::ALL.into_iter().filter(|width| width.there())
 }
 
 fn evaluations() {

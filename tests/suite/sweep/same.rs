@@ -39,8 +39,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
     sweep("five", &["--threads", "5"]);
     assert_same(&at.join("one"), &at.join("five"));
 
-    let fused = |width: &Width| width.there() && width.fuses();
-    for width in Width::ALL.iter().filter(|width| fused(width)) {
+    for width in Width::ALL.iter().filter(|width| width.there()) {
         let folder = format!("lanes-{}", width.name());
         sweep(&folder, &["--lanes", width.name()]);
         assert_same(&at.join("one"), &at.join(&folder));
@@ -62,27 +61,6 @@ fn threads_lanes_and_shards_leave_no_trace() {
     );
     call(at, &["merge", "shared"], 0);
     assert_same(&at.join("one"), &at.join("shared"));
-}
-
-#[test]
-fn results_without_fused_multiply_adds_are_not_mixed_in() {
-    let directory = directory();
-    let at = directory.path();
-    let few = super::SEAT
-        .replace("runs: 160", "runs: 16")
-        .replace("117", "11");
-    std::fs::write(at.join("few.yaml"), few).unwrap();
-    call(
-        at,
-        &["sweep", "few.yaml", "--out", "plain", "--lanes", "plain"],
-        0,
-    );
-    let (_, said) = call(
-        at,
-        &["sweep", "few.yaml", "--out", "plain", "--lanes", "1"],
-        2,
-    );
-    assert!(said.contains("differs: the arithmetic"), "{said}");
 }
 
 /// Pseudo-random numbers from a seed, the same in every run of the test [Steele, Lea, Flood 2014: SplitMix64].

@@ -110,9 +110,7 @@ impl Users {
             (Base::Fast, 0) => lane.over::<Fast>(),
             (Base::DoubleDouble, 0) => lane.over::<DoubleDouble>(),
             (Base::Lane, 0) => with_width(Width::One, lane).expect("registers"),
-            (Base::PlainLane, 0) => with_width(Width::Plain, lane).expect("registers"),
             (Base::Lane, 1) => with_width(Width::One, WithSlope(lane)).expect("registers"),
-            (Base::PlainLane, 1) => with_width(Width::Plain, WithSlope(lane)).expect("registers"),
             _ => panic!("nothing is compared over {form:?}"),
         }
     }

@@ -1,19 +1,56 @@
-//! A single number as a register: for processors without wide registers, for `f64` and `f32` alone, and for tests that
-//! the width changes nothing.
+//! A single number as a register: for one scenario, for `f64` and `f32` alone, and for processors without wide
+//! registers.
 
 use super::elementary::Elementary;
 use super::register::{Doubles, Instructions, MOST_LANES, Register, Singles};
 use crate::real::{Base, Plain, Task};
+use core::fmt::Debug;
+use core::marker::PhantomData;
 
-/// One double or single. Products and sums are fused if `FUSED` says so, as they are in wide registers.
+/// How a product and a sum are rounded, and by what.
+pub trait Rounding: Copy + Debug + Send + Sync + 'static {
+    /// Whether they are rounded once.
+    const FUSED: bool;
+}
+
+/// Rounded one after the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Apart;
+
+/// Rounded once: by an instruction on x86-64 and 64-bit ARM, by a function on other processors.
+#[derive(Clone, Copy, Debug)]
+pub struct Fused;
+
+/// Rounded once, by a function: for x86-64 processors that lack the instruction. It is slow, but gives the same bits.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy, Debug)]
+pub struct Emulated;
+/// [`Fused`], as every processor but x86-64 has it.
+#[cfg(not(target_arch = "x86_64"))]
+pub type Emulated = Fused;
+
+impl Rounding for Apart {
+    const FUSED: bool = false;
+}
+
+impl Rounding for Fused {
+    const FUSED: bool = true;
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Rounding for Emulated {
+    const FUSED: bool = true;
+}
+
+/// One double or single.
 #[derive(Clone, Copy, Debug)]
 #[repr(transparent)]
-pub struct Alone<F, const FUSED: bool>(F);
+pub struct Alone<F, R>(F, PhantomData<R>);
 
-impl<F, const FUSED: bool> Alone<F, FUSED> {
+impl<F, R> Alone<F, R> {
     #[inline(always)]
     pub(in crate::real) fn of(number: F) -> Self {
-        Alone(number)
+        Alone(number, PhantomData)
     }
 
     #[inline(always)]
@@ -33,9 +70,8 @@ fn compiled_for_fused<W: Task>(task: W) -> W::Output {
     task.run()
 }
 
-impl<F> Instructions for Alone<F, true> {
-    /// On x86-64, true if there are registers of four lanes, of which this is one lane. Every 64-bit ARM has fused
-    /// multiply-adds. On other processors a function gives the same bits.
+impl<F> Instructions for Alone<F, Fused> {
+    /// On x86-64, true if there are registers of four lanes, of which this is one lane.
     #[inline(always)]
     fn there() -> bool {
         #[cfg(target_arch = "x86_64")]
@@ -60,17 +96,26 @@ impl<F> Instructions for Alone<F, true> {
     }
 }
 
-impl<F> Instructions for Alone<F, false> {
-    #[inline(always)]
-    fn there() -> bool {
-        true
-    }
+/// Implements [`Instructions`] for numbers that every processor has.
+macro_rules! everywhere {
+    ($rounding:ty) => {
+        impl<F> Instructions for Alone<F, $rounding> {
+            #[inline(always)]
+            fn there() -> bool {
+                true
+            }
 
-    #[inline(always)]
-    fn dispatch<W: Task>(task: W) -> W::Output {
-        plain(task)
-    }
+            #[inline(always)]
+            fn dispatch<W: Task>(task: W) -> W::Output {
+                plain(task)
+            }
+        }
+    };
 }
+
+everywhere!(Apart);
+#[cfg(target_arch = "x86_64")]
+everywhere!(Emulated);
 
 /// A function of its own, as for the other registers.
 #[inline(never)]
@@ -83,7 +128,7 @@ macro_rules! operator {
     ($name:ident = $operator:tt) => {
         #[inline(always)]
         fn $name(self, other: Self) -> Self {
-            Alone(self.0 $operator other.0)
+            Alone::of(self.0 $operator other.0)
         }
     };
 }
@@ -100,8 +145,8 @@ macro_rules! of_bits {
 
 /// A number alone as a register.
 macro_rules! register {
-    ($float:ident, $fused:ident, $plain:ident) => {
-        impl<const FUSED: bool> Register for Alone<$float, FUSED>
+    ($float:ident, $base:ident) => {
+        impl<R: Rounding> Register for Alone<$float, R>
         where
             Self: Instructions + Elementary,
         {
@@ -109,10 +154,7 @@ macro_rules! register {
             type Mask = bool;
             type Order = ();
             const LANES: usize = 1;
-            const BASE: Base = match FUSED {
-                true => Base::$fused,
-                false => Base::$plain,
-            };
+            const BASE: Base = Base::$base;
             const EPSILON: f64 = $float::EPSILON as f64;
 
             operator!(add = +);
@@ -122,12 +164,12 @@ macro_rules! register {
 
             #[inline(always)]
             fn splat(value: f64) -> Self {
-                Alone(value as $float)
+                Alone::of(value as $float)
             }
 
             #[inline(always)]
             fn load(values: &[$float]) -> Self {
-                Alone(values.first().copied().unwrap_or($float::NAN))
+                Alone::of(values.first().copied().unwrap_or($float::NAN))
             }
 
             #[inline(always)]
@@ -139,26 +181,26 @@ macro_rules! register {
 
             #[inline(always)]
             fn mul_add(self, a: Self, b: Self) -> Self {
-                if FUSED {
-                    Alone(self.0.fused(a.0, b.0))
+                if R::FUSED {
+                    Alone::of(self.0.fused(a.0, b.0))
                 } else {
-                    Alone(self.0 * a.0 + b.0)
+                    Alone::of(self.0 * a.0 + b.0)
                 }
             }
 
             #[inline(always)]
             fn sqrt(self) -> Self {
-                Alone(self.0.root())
+                Alone::of(self.0.root())
             }
 
             #[inline(always)]
             fn abs(self) -> Self {
-                Alone(self.0.abs())
+                Alone::of(self.0.abs())
             }
 
             #[inline(always)]
             fn neg(self) -> Self {
-                Alone(-self.0)
+                Alone::of(-self.0)
             }
 
             #[inline(always)]
@@ -217,10 +259,10 @@ macro_rules! register {
     };
 }
 
-register!(f64, Lane, PlainLane);
-register!(f32, SingleLane, PlainSingleLane);
+register!(f64, Lane);
+register!(f32, SingleLane);
 
-impl<const FUSED: bool> Doubles for Alone<f64, FUSED>
+impl<R: Rounding> Doubles for Alone<f64, R>
 where
     Self: Instructions,
 {
@@ -240,7 +282,7 @@ where
             true => magnitude + ROUND - ROUND,
             false => magnitude,
         };
-        Alone(whole.copysign(self.0))
+        Alone::of(whole.copysign(self.0))
     }
 
     #[inline(always)]
@@ -250,7 +292,7 @@ where
 
     #[inline(always)]
     fn from_bits(bits: u64) -> Self {
-        Alone(f64::from_bits(bits))
+        Alone::of(f64::from_bits(bits))
     }
 
     #[inline(always)]
@@ -274,20 +316,20 @@ where
     }
 }
 
-impl<const FUSED: bool> Singles for Alone<f32, FUSED>
+impl<R: Rounding> Singles for Alone<f32, R>
 where
     Self: Instructions + Elementary,
-    Alone<f64, FUSED>: Doubles,
+    Alone<f64, R>: Doubles,
 {
-    type Wide = Alone<f64, FUSED>;
+    type Wide = Alone<f64, R>;
 
     #[inline(always)]
     fn widened(self) -> Self::Wide {
-        Alone(f64::from(self.0))
+        Alone::of(f64::from(self.0))
     }
 
     #[inline(always)]
     fn narrowed(wide: Self::Wide) -> Self {
-        Alone(wide.0 as f32)
+        Alone::of(wide.0 as f32)
     }
 }

@@ -28,7 +28,7 @@ mod neon;
 mod register;
 mod several;
 
-pub(crate) use alone::Alone;
+pub(crate) use alone::{Alone, Apart, Emulated, Fused};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
@@ -59,11 +59,7 @@ pub struct LaneMask<R: Register>(pub(crate) R::Mask);
 /// singles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Width {
-    /// One double, where a product and a sum are rounded one after the other. Results differ from those of the other
-    /// widths by rounding.
-    Plain,
-    /// One double, with fused multiply-adds. On x86-64 the processor must have them; processors of other kinds that
-    /// lack them call a function.
+    /// One double. A processor without fused multiply-adds calls a function for each, which is slow.
     One,
     /// Two doubles: 64-bit ARM (NEON).
     Two,
@@ -75,19 +71,12 @@ pub enum Width {
 
 impl Width {
     /// All of them, the narrowest first.
-    pub const ALL: [Width; 5] = [
-        Width::Plain,
-        Width::One,
-        Width::Two,
-        Width::Four,
-        Width::Eight,
-    ];
+    pub const ALL: [Width; 4] = [Width::One, Width::Two, Width::Four, Width::Eight];
 
     /// Whether this processor has such registers.
     pub fn there(self) -> bool {
         match self {
-            Width::Plain => true,
-            Width::One => Alone::<f64, true>::there(),
+            Width::One => true,
             Width::Two => cfg!(target_arch = "aarch64"),
             #[cfg(target_arch = "x86_64")]
             Width::Four => Avx2::there(),
@@ -101,7 +90,7 @@ impl Width {
     /// Number of scenarios side by side, in doubles.
     pub const fn lanes(self) -> usize {
         match self {
-            Width::Plain | Width::One => 1,
+            Width::One => 1,
             Width::Two => 2,
             Width::Four => 4,
             Width::Eight => 8,
@@ -111,22 +100,16 @@ impl Width {
     /// Number of scenarios side by side, in singles.
     pub const fn lanes_of_singles(self) -> usize {
         match self {
-            Width::Plain | Width::One => 1,
+            Width::One => 1,
             Width::Two => 4,
             Width::Four => 8,
             Width::Eight => 16,
         }
     }
 
-    /// Whether a product and a sum are rounded once. Only results with equal rounding agree to the last bit.
-    pub const fn fuses(self) -> bool {
-        !matches!(self, Width::Plain)
-    }
-
     /// Its name in commands and files.
     pub const fn name(self) -> &'static str {
         match self {
-            Width::Plain => "plain",
             Width::One => "1",
             Width::Two => "2",
             Width::Four => "4",
@@ -142,7 +125,7 @@ impl Width {
     /// The widest that this processor has.
     pub fn widest() -> Width {
         let mut there = Self::ALL.into_iter().rev().filter(|width| width.there());
-        there.next().unwrap_or(Width::Plain)
+        there.next().unwrap_or(Width::One)
     }
 }
 
@@ -155,15 +138,14 @@ pub trait OfAnyWidth<F: Real = f64> {
 }
 
 /// Does the work with registers of doubles of this width; `None` if the processor does not have them. Registers are
-/// made only here, in [`with_one_lane`] and in [`with_width_of_singles`], so none is made on a processor without its
-/// instructions.
+/// made only here and in [`with_width_of_singles`], so none is made on a processor without its instructions.
 pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     if !width.there() {
         return None;
     }
     Some(match width {
-        Width::Plain => task.run::<Lanes<Alone<f64, false>>>(),
-        Width::One => task.run::<Lanes<Alone<f64, true>>>(),
+        Width::One if Alone::<f64, Fused>::there() => task.run::<Lanes<Alone<f64, Fused>>>(),
+        Width::One => task.run::<Lanes<Alone<f64, Emulated>>>(),
         #[cfg(target_arch = "aarch64")]
         Width::Two => task.run::<Lanes<Neon>>(),
         #[cfg(not(target_arch = "aarch64"))]
@@ -177,10 +159,10 @@ pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
     })
 }
 
-/// Does the work as [`Width::One`] does, and compiles it only for that width.
-pub fn with_one_lane<W: OfAnyWidth>(task: W) -> Option<W::Output> {
-    let there = Width::One.there();
-    there.then(|| task.run::<Lanes<Alone<f64, true>>>())
+/// Does the work with one double, as on a processor without fused multiply-adds. For tests.
+#[doc(hidden)]
+pub fn with_emulated<W: OfAnyWidth>(task: W) -> W::Output {
+    task.run::<Lanes<Alone<f64, Emulated>>>()
 }
 
 /// Does the work with the registers of singles of this width, which have twice as many lanes; `None` if the processor
@@ -190,8 +172,8 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
         return None;
     }
     Some(match width {
-        Width::Plain => task.run::<Lanes<Alone<f32, false>>>(),
-        Width::One => task.run::<Lanes<Alone<f32, true>>>(),
+        Width::One if Alone::<f32, Fused>::there() => task.run::<Lanes<Alone<f32, Fused>>>(),
+        Width::One => task.run::<Lanes<Alone<f32, Emulated>>>(),
         #[cfg(target_arch = "aarch64")]
         Width::Two => task.run::<Lanes<NeonSingles>>(),
         #[cfg(not(target_arch = "aarch64"))]
@@ -208,26 +190,26 @@ pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
 /// The layout of a scalar that is a register of any width, or a dual number over one; `None` for any other scalar.
 #[cfg(feature = "std")]
 pub(super) fn layout(scalar: TypeId) -> Option<Layout> {
-    fn is<R: Register>(scalar: TypeId, fused: bool) -> Option<Layout> {
+    fn is<R: Register>(scalar: TypeId) -> Option<Layout> {
         let layout = Layout {
             lanes: R::LANES,
             single: size_of::<R::One>() == size_of::<f32>(),
-            fused,
+            fused: true,
             slopes: false,
         };
         layout.if_over::<Lanes<R>>(scalar)
     }
-    let alone = is::<Alone<f64, false>>(scalar, false)
-        .or(is::<Alone<f64, true>>(scalar, true))
-        .or(is::<Alone<f32, false>>(scalar, false))
-        .or(is::<Alone<f32, true>>(scalar, true));
+    let alone = is::<Alone<f64, Fused>>(scalar)
+        .or(is::<Alone<f64, Emulated>>(scalar))
+        .or(is::<Alone<f32, Fused>>(scalar))
+        .or(is::<Alone<f32, Emulated>>(scalar));
     #[cfg(target_arch = "x86_64")]
-    let wide = is::<Avx2>(scalar, true)
-        .or(is::<Avx2Singles>(scalar, true))
-        .or(is::<Avx512>(scalar, true))
-        .or(is::<Avx512Singles>(scalar, true));
+    let wide = is::<Avx2>(scalar)
+        .or(is::<Avx2Singles>(scalar))
+        .or(is::<Avx512>(scalar))
+        .or(is::<Avx512Singles>(scalar));
     #[cfg(target_arch = "aarch64")]
-    let wide = is::<Neon>(scalar, true).or(is::<NeonSingles>(scalar, true));
+    let wide = is::<Neon>(scalar).or(is::<NeonSingles>(scalar));
     #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     let wide = None;
     alone.or(wide)

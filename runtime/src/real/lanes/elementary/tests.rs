@@ -5,16 +5,16 @@ mod circle;
 mod exponential;
 mod power;
 
-use crate::real::lanes::alone::Alone;
+use crate::real::lanes::alone::{self, Alone};
 use crate::real::lanes::register::Doubles;
 use crate::{DoubleDouble, Real};
 use std::sync::OnceLock;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The arithmetic of registers with fused multiply-adds.
-type Fused = Alone<f64, true>;
+type Fused = Alone<f64, alone::Fused>;
 /// The arithmetic of registers without them.
-type Unfused = Alone<f64, false>;
+type Unfused = Alone<f64, alone::Apart>;
 
 /// The number of random points on which each bound is tried: other points in each run, and ten times as many with `BRYANT_TESTS=all`.
 fn points() -> usize {

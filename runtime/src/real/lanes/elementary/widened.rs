@@ -8,7 +8,9 @@
 use super::Elementary;
 #[cfg(target_arch = "aarch64")]
 use crate::real::lanes::NeonSingles;
-use crate::real::lanes::alone::Alone;
+#[cfg(target_arch = "x86_64")]
+use crate::real::lanes::alone::Emulated;
+use crate::real::lanes::alone::{Alone, Apart, Fused};
 use crate::real::lanes::register::{Doubles, Singles};
 #[cfg(target_arch = "x86_64")]
 use crate::real::lanes::{Avx2Singles, Avx512Singles};
@@ -76,8 +78,10 @@ macro_rules! by_doubles {
     };
 }
 
-by_doubles!(Alone<f32, false>);
-by_doubles!(Alone<f32, true>);
+by_doubles!(Alone<f32, Apart>);
+by_doubles!(Alone<f32, Fused>);
+#[cfg(target_arch = "x86_64")]
+by_doubles!(Alone<f32, Emulated>);
 #[cfg(target_arch = "x86_64")]
 by_doubles!(Avx2Singles);
 #[cfg(target_arch = "x86_64")]
