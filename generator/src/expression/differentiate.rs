@@ -12,7 +12,9 @@
 //! The derivative of a curve is its slope, which is differentiable except at the points. The larger of two values is
 //! differentiable here only if both have the same derivative, because a derivative that is correct on one side alone
 //! would be a trap, unless it is asked for ([`differentiate_almost_everywhere`]). The same holds for force laws with
-//! branches. With dual numbers, all of these can be differentiated at run time.
+//! branches, and for the searches of ellipsoids. With dual numbers, all of these can be differentiated at run time.
+
+mod ellipsoid;
 
 use super::graph::{Expr, Graph, choose};
 use super::node::{Function, Node, NodeId, Symbol};
@@ -114,9 +116,13 @@ fn along<'g>(
                 let zero = || graph.constant(0.0);
                 derivative.get(&a).copied().unwrap_or_else(zero)
             };
-            let own = match (kinks, by_side(graph, id, node, &d)) {
-                (Kinks::BySide, Some(own)) => own,
-                _ => rule(graph, id, node, d)?,
+            let by_side = match kinks {
+                Kinks::BySide => by_side(graph, id, node, &d)?,
+                Kinks::Refused => None,
+            };
+            let own = match by_side {
+                Some(own) => own,
+                None => rule(graph, id, node, d)?,
             };
             if !own.is_zero() {
                 derivative.insert(id, own);
@@ -128,15 +134,16 @@ fn along<'g>(
     Ok(roots.iter().map(of).collect())
 }
 
-/// The derivative of a value that is chosen by a comparison, from those of its operands; `None` for other nodes.
+/// The derivative of a value that is chosen by a comparison, or found by a search that compares, from those of its
+/// operands; `None` for other nodes.
 fn by_side<'g>(
     graph: &'g Graph,
     id: NodeId,
     node: Node,
     d: &impl Fn(NodeId) -> Expr<'g>,
-) -> Option<Expr<'g>> {
+) -> Result<Option<Expr<'g>>, NotDifferentiable> {
     let e = |a: NodeId| graph.expr(a);
-    match node {
+    Ok(match node {
         // the comparisons of the runtime
         Node::Max(a, b) => Some(choose(e(a), e(b), d(b), d(a))),
         Node::Min(a, b) => Some(choose(e(b), e(a), d(b), d(a))),
@@ -144,17 +151,51 @@ fn by_side<'g>(
             [a, b, then, otherwise] => Some(choose(e(a), e(b), d(then), d(otherwise))),
             _ => None,
         },
+        Node::Sqrt(a) => Some(0.5 * d(a) / standing(e(id), d(a))),
+        Node::Atan2(y, x) => {
+            let (turn, radius) = turn([e(y), e(x)], [d(y), d(x)]);
+            let motion = magnitude(d(y)) + magnitude(d(x));
+            Some(turn / standing(radius, motion))
+        }
         Node::Call(Function::Power, [base, exponent, _]) if d(exponent).is_zero() => {
             let less = e(exponent) - graph.constant(1.0);
-            let power = graph.call(Function::Power, &[e(base), less]);
-            Some(e(exponent) * power * d(base))
+            let motion = e(exponent) * d(base);
+            let power = graph.call(Function::Power, &[standing(e(base), motion), less]);
+            Some(motion * power)
         }
         Node::Call(Function::Power, [base, exponent, _]) => match e(base).as_constant() {
             Some(number) if number > 0.0 => Some(libm::log(number) * e(id) * d(exponent)),
             _ => None,
         },
+        Node::Call(Function::Approach(call), _) => {
+            let arguments = graph.arguments(id);
+            Some(ellipsoid::of_approach(graph, call, &arguments, d))
+        }
+        Node::Call(Function::Support(part), _) => {
+            let arguments = graph.arguments(id);
+            Some(ellipsoid::of_support(graph, id, part, &arguments, d)?)
+        }
         _ => None,
-    }
+    })
+}
+
+/// A divisor that is not negative, or 1 where it and the motion are 0: what stands still there has the derivative 0 and
+/// not 0/0, as by dual numbers.
+fn standing<'g>(divisor: Expr<'g>, motion: Expr<'g>) -> Expr<'g> {
+    let graph = divisor.graph();
+    let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
+    let at_zero = choose(zero, magnitude(motion), divisor, one);
+    choose(zero, divisor, divisor, at_zero)
+}
+
+/// |a|
+fn magnitude(a: Expr<'_>) -> Expr<'_> {
+    a.max(-a)
+}
+
+/// x ẏ − y ẋ and x² + y²
+fn turn<'g>([y, x]: [Expr<'g>; 2], [dy, dx]: [Expr<'g>; 2]) -> (Expr<'g>, Expr<'g>) {
+    (x * dy - y * dx, x.squared() + y.squared())
 }
 
 /// The derivative of a node, from those of its operands.
@@ -178,7 +219,7 @@ fn rule<'g>(
         Node::Sin(a) => e(a).cos() * d(a),
         Node::Cos(a) => -(e(a).sin() * d(a)),
         Node::Atan2(y, x) => {
-            let (radius, turn) = (e(x).squared() + e(y).squared(), e(x) * d(y) - e(y) * d(x));
+            let (turn, radius) = turn([e(y), e(x)], [d(y), d(x)]);
             turn / radius
         }
         Node::Max(a, b) | Node::Min(a, b) if d(a).id() == d(b).id() => d(a),

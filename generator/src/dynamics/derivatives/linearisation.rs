@@ -41,8 +41,8 @@ pub struct Linearisation<'g> {
 /// absolute axes; so A is not (0, 1) in its rows.
 ///
 /// # Errors
-/// If a force or an output is a function of the user's, or needs the direction in which two ellipsoids push each other,
-/// or has another function that cannot be differentiated in symbols. Dual numbers can.
+/// If a force or an output is a function of the user's, or has another function that cannot be differentiated in
+/// symbols. Dual numbers can.
 pub fn linearisation<'g>(
     scene: &Scene<'g, '_>,
     inputs: &[usize],
