@@ -2,6 +2,8 @@
 
 import json
 import os
+import shutil
+import sys
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
@@ -390,6 +392,23 @@ class Model(_bryant.Model):
         found, _ = call_json("modes", self.path, start=start, set=self._changed(None), **options)
         return found["modes"]
 
+    def fmu(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        fmi: int = 2,
+        library: str | os.PathLike[str] | Iterable[str | os.PathLike[str]] | None = None,
+        **options: Any,
+    ) -> None:
+        """Writes the model as an FMU for co-simulation (version 2 or 3 of FMI), as `bryant export fmu` does it.
+
+        library: the shared library that it carries, one for each platform. The default is that beside the program `bryant`,
+        for a wheel has none. Other options are those of the command: tolerance=1e-8, start="rest.json", duration="1 s".
+        """
+        given = [library] if isinstance(library, (str, os.PathLike)) else list(library or [_beside_program()])
+        files = [os.fspath(file) for file in given]
+        call("export", "fmu", self.path, out=os.fspath(path), fmi=fmi, library=files, set=self._changed(None), **options)
+
     def _changed(self, new):
         """Values for commands: those of the model that are not the defaults, and these."""
         changed = {
@@ -399,6 +418,20 @@ class Model(_bryant.Model):
         }
         changed.update(new or {})
         return changed
+
+
+def _beside_program():
+    """The library of FMUs that lies beside the program."""
+    name = {"win32": "bryant_fmi.dll", "darwin": "libbryant_fmi.dylib"}.get(sys.platform, "libbryant_fmi.so")
+    program = shutil.which("bryant")
+    if program:
+        file = os.path.join(os.path.dirname(os.path.realpath(program)), name)
+        if os.path.isfile(file):
+            return file
+    raise _bryant.Error(
+        f"{name}, which an FMU carries, is not beside a program `bryant` on the PATH\n"
+        f"  help: it is in the archive of a release, or `cargo build --release -p bryant-fmi` makes it; name it by library="
+    )
 
 
 def _exponential(matrix):

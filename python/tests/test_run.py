@@ -3,9 +3,11 @@
 import csv
 import io
 import os
+import re
 import signal
 import threading
 import time
+import zipfile
 
 import bryant
 import numpy as np
@@ -99,3 +101,27 @@ def test_ctrl_c_ends_a_run():
     assert time.monotonic() - begin < 20
     # the next one is not disturbed
     assert len(model.run(duration="5 ms").time) > 1
+
+
+def test_a_model_becomes_an_fmu(sled, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(bryant.Error, match="is not beside a program `bryant` on the PATH"):
+        sled.fmu(tmp_path / "sled.fmu")
+    library = tmp_path / "library.so"
+    library.write_bytes(b"nothing")
+    with pytest.raises(bryant.Error, match="is no library of FMUs"):
+        sled.fmu(tmp_path / "sled.fmu", library=library)
+
+
+@pytest.mark.skipif("BRYANT_FMI" not in os.environ, reason="the library of FMUs is not there")
+def test_an_fmu_has_the_parameters_of_the_model(tmp_path):
+    model = bryant.load("sled-pendulum")
+    model.parameters = {"belt_stiffness": 70e3}
+    model.fmu(tmp_path / "sled.fmu", fmi=3, library=os.environ["BRYANT_FMI"], tolerance=1e-8)
+    with zipfile.ZipFile(tmp_path / "sled.fmu") as archive:
+        names = archive.namelist()
+        description = archive.read("modelDescription.xml").decode()
+    assert "resources/model.bryant" in names and any(name.startswith("binaries/") for name in names)
+    stiffness = re.search(r'<[^>]*name="belt_stiffness"[^>]*>', description).group()
+    assert 'start="70000"' in stiffness, stiffness
+    assert 'fmiVersion="3.0"' in description
