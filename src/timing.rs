@@ -37,7 +37,7 @@ pub struct Measured {
 }
 
 /// Number of rounds; each model has one turn in each round.
-const ROUNDS: usize = 101;
+const ROUNDS: usize = 51;
 /// Approximate length of a turn \[s\].
 const TURN: f64 = 5e-5;
 /// Number of states that are evaluated in turn.
