@@ -124,13 +124,17 @@ impl std::fmt::Display for Misfit {
 
 impl std::error::Error for Misfit {}
 
+/// Number of rows whose inputs are compared with their limits at once, so that registers are full.
+const REPEATED: usize = 8;
+
 /// A model at many states. It is made once; calls allocate nothing, except that a call on several threads starts them.
 pub struct Batch {
     info: &'static Info,
     /// The parameters that each row has.
     varying: Varying,
-    /// The least and the greatest value that each of them may have; finite, so that other values are beyond them.
-    limits: Vec<[f64; 2]>,
+    /// The least value that each of them may have, and the greatest, for [`REPEATED`] rows; finite, so that other values
+    /// are beyond them.
+    limits: [Vec<f64>; 2],
     /// All parameters \[SI\].
     parameters: Vec<f64>,
     /// Whether the engine has S, r_s and r_k.
@@ -188,7 +192,7 @@ impl Engine {
         let mut batch = Batch {
             info,
             varying: Varying::default(),
-            limits: Vec::new(),
+            limits: Default::default(),
             parameters: info.parameters.iter().map(|of| of.default).collect(),
             matrices: !self.lists().list(Method::MassMatrix).results.is_empty(),
             functions: lengths(self.functions()),
@@ -226,11 +230,12 @@ impl Batch {
         let limits = parameters.iter().map(|index| {
             let of = &self.info.parameters[*index];
             match of.input {
-                true => [of.min.max(f64::MIN), of.max.min(f64::MAX)],
-                false => [f64::MIN, f64::MAX],
+                true => (of.min.max(f64::MIN), of.max.min(f64::MAX)),
+                false => (f64::MIN, f64::MAX),
             }
         });
-        self.limits = limits.collect();
+        let (low, high): (Vec<f64>, Vec<f64>) = limits.unzip();
+        self.limits = [low, high].map(|limits| limits.repeat(REPEATED));
         self.conditional = self.checks.depends(Method::Conditions, parameters);
         // the values of a row that was refused stay in it until then
         self.checks.set_parameters(&self.parameters);
@@ -395,13 +400,16 @@ impl Batch {
 
     /// Refuses values that are not finite, outside of the limits of an input, or that break a condition.
     fn check(&mut self, inputs: &[f64]) -> Result<(), Misfit> {
+        let [low, high] = &self.limits;
+        let rows = inputs.len() / self.varying.indices().len().max(1);
+        let within = self.workers[0].of(rows).within(inputs, [low, high]);
+        if within && !self.conditional {
+            return Ok(());
+        }
         for (row, values) in inputs.chunks_exact(self.varying().len().max(1)).enumerate() {
             let info = self.info;
             let refused = |refusal| Misfit::Refused { row, refusal, info };
-            // without a branch for each value: most are allowed
-            let within = self.limits.iter().zip(values);
-            let within = within.map(|([min, max], value)| (min <= value) & (value <= max));
-            if !within.fold(true, |all, one| all & one) {
+            if !within {
                 for (&index, &value) in self.varying().iter().zip(values) {
                     self.allowed(index, value).map_err(refused)?;
                 }

@@ -19,6 +19,8 @@ pub(super) trait Lanes: Send {
         range: Range<usize>,
         results: &mut [f64],
     );
+    /// Whether all values are within limits, which are repeated as often as the values.
+    fn within(&self, values: &[f64], limits: [&[f64]; 2]) -> bool;
     /// Takes steps from the rows of a range, and writes states and outputs.
     fn rollout(
         &mut self,
@@ -61,6 +63,7 @@ impl OfAnyWidth for Make<'_> {
             results: zeros(most),
             room: vec![[0.0; MOST_LANES]; most],
             accelerations: zeros(info.velocities.len()),
+            given: false,
             values: Vec::new(),
             at_end: Vec::new(),
             defaults: Vec::new(),
@@ -83,8 +86,9 @@ struct Held<T: Real> {
     sum: Vec<T>,
     before: Vec<T>,
     results: Vec<T>,
-    /// Given accelerations.
+    /// Given accelerations, and whether there were any the last time; otherwise they are 0.
     accelerations: Vec<T>,
+    given: bool,
     varying: Varying,
     /// The values of the varying parameters at the beginning of a step, and at its end; those of the batch.
     values: Vec<T>,
@@ -169,6 +173,28 @@ impl<T: Several<One = f64>> Task for Store<'_, T> {
     }
 }
 
+/// Whether values are within limits. NaN is not.
+struct Within<'a> {
+    values: &'a [f64],
+    limits: [&'a [f64]; 2],
+}
+
+impl Task for Within<'_> {
+    type Output = bool;
+    #[inline(always)]
+    fn run(self) -> bool {
+        let [low, high] = self.limits;
+        let mut within = true;
+        for values in self.values.chunks(low.len().max(1)) {
+            for ((value, low), high) in values.iter().zip(low).zip(high) {
+                // without a branch for each value: most are allowed
+                within &= (low <= value) & (value <= high);
+            }
+        }
+        within
+    }
+}
+
 /// to = from + length · rate
 struct Ahead<'a, T> {
     from: &'a [T],
@@ -243,8 +269,13 @@ impl<T: Several<One = f64>> Held<T> {
     fn load(&mut self, rows: &Rows<'_>, first: usize, end: usize) {
         let info = self.model.info();
         let [q, v] = [info.coordinates.len(), info.velocities.len()];
-        self.y.copy_from_slice(&self.start);
-        self.accelerations.fill(T::from_f64(0.0));
+        if rows.states.is_empty() {
+            self.y[q + v..].copy_from_slice(&self.start[q + v..]);
+        }
+        if rows.accelerations.is_empty() && self.given {
+            self.accelerations.fill(T::from_f64(0.0));
+        }
+        self.given = !rows.accelerations.is_empty();
         let (coordinates, rest) = self.y.split_at_mut(q);
         let (velocities, states) = rest.split_at_mut(v);
         for (rows, stride, into) in [
@@ -417,6 +448,10 @@ impl<T: Several<One = f64>> Lanes for Held<T> {
             *default = all[*index];
         }
         self.model.initial_state(&mut self.start);
+    }
+
+    fn within(&self, values: &[f64], limits: [&[f64]; 2]) -> bool {
+        T::dispatch(Within { values, limits })
     }
 
     fn evaluate(
