@@ -61,7 +61,9 @@ impl Setting {
             return Some(Method::fixed(formula, step));
         }
         let tolerance = tolerance.or(self.tolerance);
-        let tolerances = tolerance.map_or_else(Tolerances::default, Tolerances::of);
+        let tolerances = tolerance
+            .map_or_else(Tolerances::default, Tolerances::of)
+            .calm();
         Some(match self.switches {
             true => Method::switching(formula, tolerances),
             false => Method::adaptive(formula, tolerances),

@@ -113,7 +113,7 @@ impl Setting {
             Pace::Step(step) => bryant_runtime::Pace::Fixed(step),
             Pace::Tolerance(relative) => bryant_runtime::Pace::Adaptive(Adaptive {
                 switches: self.switches,
-                ..Adaptive::of(Tolerances::of(relative))
+                ..Adaptive::of(Tolerances::of(relative).calm())
             }),
         };
         Method {

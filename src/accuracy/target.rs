@@ -1,7 +1,7 @@
 //! Computes a run of a requested accuracy, with an estimate of its error.
 //!
 //! The error is that of the printed numbers: for each output, the largest difference over all samples, relative to the
-//! output's largest magnitude in the run. A run at tolerance τ is compared with one at τ/10, this one with one at
+//! output's largest magnitude in the run. A run at tolerance τ (the wanted accuracy, but at most 10⁻⁵) is compared with one at τ/10, this one with one at
 //! τ/100, and so on. The sharpest run is the result, and its difference from the run before is the estimate of its
 //! error. If the error is proportional to the tolerance, the true error of the result is a ninth of the estimate. This
 //! margin is for kinks and friction, with which errors decrease unevenly. A difference may be small by accident: across
@@ -19,8 +19,9 @@ use crate::simulation::{self, Recording, Runs};
 use bryant_runtime::Formula;
 use bryant_runtime::program::{ErrorKind, Job, RunError, Scalar};
 
-/// Largest tolerance of the first run.
-const COARSEST: f64 = 0.1;
+/// Largest tolerance of the first run. Above it the steps of a stiff scene become no longer, and two runs may have the
+/// same error ([`Tolerances::calm`](bryant_runtime::Tolerances::calm)).
+const COARSEST: f64 = 1e-5;
 /// Least ratio of an estimate to the one before: 1/√10.
 const LEAST: f64 = 0.316;
 /// Accuracy below which the method of order 8 is cheapest.

@@ -58,7 +58,9 @@ impl Integration {
                 Some(Method::fixed(formula, CUSTOMARY_STEP))
             }
             (formula, None, tolerance) => {
-                let tolerances = tolerance.map_or_else(Tolerances::default, Tolerances::of);
+                let tolerances = tolerance
+                    .map_or_else(Tolerances::default, Tolerances::of)
+                    .calm();
                 Some(match formula {
                     Some(formula) => Method::adaptive(formula, tolerances),
                     None => Method::switching(Scheme::DEFAULT.formula, tolerances),

@@ -32,3 +32,28 @@ fn bundled_models_err_by_less_than_a_thousandth_by_default() {
         assert!(error.worst < PROMISED, "{name}: {error:?}");
     }
 }
+
+/// The belts of this scene turn from loading to unloading in every step if an oscillation may grow as the tolerance
+/// alone says.
+#[test]
+fn a_loose_tolerance_takes_no_more_steps_than_the_usual_one() {
+    let bundled = bundled::find("belt-sled").expect("a bundled model");
+    let model = bundled::model(bundled).expect("bundled models are right");
+    let engine = engine_of(&model);
+    let steps = |tolerance: f64| {
+        let tolerances = Tolerances::of(tolerance).calm();
+        let job = Job {
+            method: Some(Method::switching(Formula::Dopri5, tolerances)),
+            // the belt is loaded, and lets go
+            duration: Some(0.08),
+            ..Job::default()
+        };
+        let run = simulation::run(&engine, &job, &mut |_| {});
+        run.result.expect("a run").steps
+    };
+    let usual = steps(1e-7);
+    for tolerance in [1e-1, 1e-2, 1e-3, 1e-4] {
+        let loose = steps(tolerance);
+        assert!(loose <= usual, "{loose} at {tolerance}, {usual} at 1e-7");
+    }
+}

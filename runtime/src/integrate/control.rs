@@ -48,6 +48,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// share: a little less than 10⁴ tolerances.
 const ACCELERATIONS: f64 = 3e4;
 
+/// The largest share of the largest acceleration that [`Tolerances::calm`] leaves.
+const CALM: f64 = 0.3;
+
 impl Tolerances {
     /// A relative tolerance r and the absolute ones that go with it: r/10 for positions \[m\] and angles \[rad\],
     /// because bodies move by decimetres, and r for velocities. 10⁻⁷ stands for 10 nm and 0.002 arc seconds.
@@ -75,6 +78,18 @@ impl Tolerances {
             angular_velocities: tolerance,
             laws: tolerance,
             accelerations: ACCELERATIONS * tolerance,
+        }
+    }
+
+    /// These tolerances, but with at most 0.3 of the largest acceleration for an oscillation that is too fast for the
+    /// steps. At a tolerance above 10⁻⁵ it would grow further, until belts and contacts turn from loading to unloading in
+    /// every step: then a run at 10⁻² takes more steps than one at 10⁻⁷. Two runs with the same share have the same error
+    /// in a motion that is so fast, so one of them is no check of the other.
+    #[must_use]
+    pub const fn calm(self) -> Tolerances {
+        Tolerances {
+            accelerations: self.accelerations.min(CALM),
+            ..self
         }
     }
 
