@@ -36,6 +36,8 @@ pub struct Reference {
     pub statement: String,
     /// The cost of the solution.
     pub report: Report,
+    /// The time of its first run, in doubles at a usual tolerance \[s\].
+    pub usual: f64,
 }
 
 /// Why a reference could not be computed.
@@ -126,6 +128,7 @@ pub fn compute(engine: &Engine, job: &Job, patience: f64) -> Result<Reference, R
         }
     };
     let first = solve(Scalar::F64, OF_DOUBLES[0])?;
+    let usual = first.run.wall.as_secs_f64();
     let evaluations = first.report.evaluations as f64;
     let finer = |to: f64| libm::pow(OF_DOUBLES[0] / to, 1.0 / ORDER);
     let of_pair = finer(TOLERANCES[0]) + finer(TOLERANCES[1]);
@@ -152,7 +155,10 @@ pub fn compute(engine: &Engine, job: &Job, patience: f64) -> Result<Reference, R
         }
     }
     let check = check.expect("the first of several tolerances is solved for, or an error");
-    let mut reference = assess(last, &check, scalar)?;
+    let mut reference = Reference {
+        usual,
+        ..assess(last, &check, scalar)?
+    };
     if scalar == Scalar::F64 {
         reference.statement += &format!(
             "; double-doubles would take about {}",
@@ -216,6 +222,7 @@ fn assess(
         readings: reading::of(&run.table),
         own: Own::default(),
         statement: String::new(),
+        usual: 0.0,
         header: run.header,
         report,
     };

@@ -1,9 +1,10 @@
 //! Decides in which order the settings of a study are run, and how long each run may take.
 //!
 //! A study has series of settings that differ only in their step or tolerance, from coarse to fine. A free processor
-//! takes the next setting of a series. Series without an error below 100 % so far come first; then the series whose
-//! last point is nearest to the front of accuracy against time; of several, the one with the fewest points. So a study
-//! that ends early has the front, and lacks points far from it.
+//! takes the next setting of a series. The coarse end of the default method comes first: it is what a user has without
+//! a study. Then come series without an error below 100 % so far; then the series whose last point is nearest to the
+//! front of accuracy against time; of several, the one with the fewest points. So a study that ends early has the front,
+//! and lacks points far from it.
 
 use super::front::Cost;
 use super::plan::Series;
@@ -23,14 +24,21 @@ pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 /// Is added to the rank of a setting that is run again; it exceeds the distance of any cost from the front.
 const LATER: f64 = 1e3;
 
-/// Time limit of a run whose time cannot be predicted, as a share of the limit of any run.
+/// Time limit of a run whose time cannot be predicted, as a share of the limit of any run; at least this many times that
+/// of a usual run.
 const FIRST: f64 = 0.25;
+const USUAL: f64 = 1.5;
+
+/// Number of settings of the default method that come before all others.
+const OF_DEFAULT: usize = 6;
 
 /// Runs the settings of a study within limits of time.
 pub struct Schedule<'a> {
     series: &'a [Series],
     /// Time limit of one run \[s\].
     limit: f64,
+    /// Time limit of a run whose time cannot be predicted \[s\].
+    first: f64,
     begin: Instant,
     /// Time after `begin` at which the last run may begin \[s\].
     all: f64,
@@ -58,10 +66,17 @@ impl<'a> Schedule<'a> {
         Schedule {
             series,
             limit,
+            first: FIRST * limit,
             begin: Instant::now(),
             all,
             workers: std::thread::available_parallelism().map_or(1, usize::from),
         }
+    }
+
+    /// The schedule for a scene of which a usual run takes this time \[s\].
+    pub fn expecting(self, usual: f64) -> Self {
+        let first = self.first.max(USUAL * usual).min(self.limit);
+        Schedule { first, ..self }
     }
 
     /// The schedule with this number of simultaneous runs, instead of one for each processor.
@@ -160,7 +175,7 @@ impl<'a> Schedule<'a> {
                 continue;
             }
             line.busy = true;
-            let allowed = predicted.map_or(FIRST * limit, |predicted| PATIENCE * predicted);
+            let allowed = predicted.map_or(self.first, |predicted| PATIENCE * predicted);
             let allowed = line.allowance.unwrap_or(allowed);
             return Some((index, setting, allowed.max(0.02 * limit).min(limit)));
         }
@@ -190,6 +205,9 @@ impl Line {
         if let Some(allowance) = self.allowance {
             // a setting that took longer than predicted is run after all others
             return LATER + allowance;
+        }
+        if self.settings[0].switches && self.points.len() < OF_DEFAULT {
+            return -3.0 + 1e-3 * self.points.len() as f64;
         }
         let begun = self.costs.iter().rev().find(|cost| cost.time.is_finite());
         match begun {

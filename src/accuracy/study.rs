@@ -103,8 +103,9 @@ pub enum StudyError {
 const REFERENCE: f64 = 1.0 / 3.0;
 const ERRORS: f64 = 2.0 / 3.0;
 
-/// The share of the budget that is the time limit of one run.
+/// The share of the budget that is the time limit of one run; it is at least this many times that of a usual run.
 const SHARE: f64 = 1.0 / 20.0;
+const USUAL: f64 = 3.0;
 
 /// Number of rounds with all points; later rounds have only points with short runs.
 const ROUNDS_OF_ALL: usize = 3;
@@ -201,7 +202,9 @@ impl Bench<'_> {
     /// to fine.
     fn errors(&self, all: &[Series], progress: &mut dyn FnMut(Stage, f64)) -> Vec<Point> {
         let end = self.clock.left(ERRORS);
-        let schedule = Schedule::new(all, SHARE * self.clock.budget, end);
+        let usual = self.reference.usual;
+        let limit = (SHARE * self.clock.budget).max(USUAL * usual);
+        let schedule = Schedule::new(all, limit, end).expecting(usual);
         let run = |setting: &Setting, limit: f64| {
             let status = self.run(setting, limit);
             let cost = self.cost(&status);

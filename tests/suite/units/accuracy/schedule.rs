@@ -117,3 +117,28 @@ fn when_the_time_is_used_up_nothing_begins() {
         |p: &Point| matches!(&p.status, Status::Skipped(why) if why.contains("not reached"));
     assert!(points.iter().all(reached));
 }
+
+/// Of a scene whose usual run takes long the first runs may take as long, and those of the default method come first.
+#[test]
+fn a_scene_with_long_runs_begins_with_the_default_method() {
+    let mut all = [series(Formula::Rk4), series(Formula::Dopri5)];
+    all[1].of.switches = true;
+    all[1].paces = (1..10).map(|i| Pace::Tolerance(0.1f64.powi(i))).collect();
+    for (usual, first) in [(0.0, 0.25), (0.4, 0.6), (2.0, 1.0)] {
+        let schedule = Schedule::new(&all, 1.0, 60.0).expecting(usual).on(1);
+        let taken = Mutex::new(Vec::new());
+        let run = |setting: &Setting, limit: f64| {
+            taken.lock().unwrap().push((setting.switches, limit));
+            let cost = Cost {
+                error: 1e-3 * setting.pace.value(),
+                time: 0.3,
+            };
+            (Status::Failed(String::new()), cost)
+        };
+        schedule.carry_out(&run, &mut |_| {});
+        let taken = taken.into_inner().unwrap();
+        assert!((taken[0].1 - first).abs() < 1e-12, "{taken:?}");
+        assert!(taken[..6].iter().all(|of| of.0), "{taken:?}");
+        assert!(!taken[6].0, "{taken:?}");
+    }
+}
