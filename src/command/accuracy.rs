@@ -73,7 +73,7 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..=10_000))]
     repetitions: Option<u16>,
 
-    /// Time that all runs together may take; slow settings are skipped [default: 40 s, 10 s with --quick]
+    /// Time that all runs together may take; slow settings are skipped [default: 40 s, 8 s with --quick]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     budget: Option<f64>,
 
@@ -233,7 +233,7 @@ impl Arguments {
             )));
         }
         let (repetitions, budget) = match self.quick {
-            true => (3, 10.0),
+            true => (3, 8.0),
             false => (11, 40.0),
         };
         Ok(Effort {
