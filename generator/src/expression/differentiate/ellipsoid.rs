@@ -39,29 +39,68 @@ pub(super) fn of_approach<'g>(
     let parts = |from: usize| vector(graph, call, |k| part(from + k));
     let (n, depth) = (parts(0), part(count));
 
-    let zero = graph.constant(0.0);
     let (mut gap, mut deeper) = (-change.between, -n.dot(change.between));
-    let mut curvatures = Vec::with_capacity(2);
-    let mut furthest = Vec::with_capacity(2);
-    for (shape, change) in own.shapes.iter().zip(&change.shapes) {
+    let bodies = [0, 1].map(|i| Furthest::of(&own.shapes[i], &change.shapes[i], n));
+    for body in &bodies {
+        gap = gap + body.moved;
+        deeper = deeper + body.grown;
+    }
+    let [first, second] = &bodies;
+    let stiffness = Sym3::from_fn(|i, j| {
+        let unit = graph.constant(if i == j { 1.0 } else { 0.0 });
+        let across = unit - n.0[i] * n.0[j];
+        first.curvature.entry(i, j) + second.curvature.entry(i, j) - depth * across
+    });
+    let turn = turn(call, &stiffness, gap, n, depth);
+    let index = usize::from(call.part);
+    match index.checked_sub(count) {
+        None => turn.0[axes(call)[index]],
+        Some(0) => deeper,
+        Some(k) => {
+            let half = graph.constant(0.5);
+            let middle = first.moved + first.curvature.times(turn)
+                - half * (deeper * n)
+                - half * (depth * turn);
+            middle.0[axes(call)[k - 1]]
+        }
+    }
+}
+
+/// The point of a body that is furthest along n, as the body changes.
+struct Furthest<'g> {
+    /// The change of u at fixed n.
+    moved: Vec3<'g>,
+    /// The change of h at fixed n.
+    grown: Expr<'g>,
+    /// K = ∂u/∂n
+    curvature: Sym3<'g>,
+}
+
+impl<'g> Furthest<'g> {
+    fn of(shape: &Sym3<'g>, change: &Sym3<'g>, n: Vec3<'g>) -> Self {
         let stretched = shape.times(n);
         let reach = n.dot(stretched).sqrt();
         let u = reach.recip() * stretched;
         let turned = change.times(n);
         let grown = n.dot(turned) / (2.0 * reach);
-        let moved = reach.recip() * (turned - grown * u);
-        gap = gap + moved;
-        deeper = deeper + grown;
-        furthest.push(moved);
-        curvatures.push(Sym3::from_fn(|i, j| {
-            (shape.entry(i, j) - u.0[i] * u.0[j]) / reach
-        }));
+        Furthest {
+            moved: reach.recip() * (turned - grown * u),
+            grown,
+            curvature: Sym3::from_fn(|i, j| (shape.entry(i, j) - u.0[i] * u.0[j]) / reach),
+        }
     }
-    let stiffness = Sym3::from_fn(|i, j| {
-        let unit = graph.constant(if i == j { 1.0 } else { 0.0 });
-        let across = unit - n.0[i] * n.0[j];
-        curvatures[0].entry(i, j) + curvatures[1].entry(i, j) - depth * across
-    });
+}
+
+/// ṅ, for a `gap` that changes by this vector at fixed n.
+fn turn<'g>(
+    call: ApproachCall,
+    stiffness: &Sym3<'g>,
+    gap: Vec3<'g>,
+    n: Vec3<'g>,
+    depth: Expr<'g>,
+) -> Vec3<'g> {
+    let graph = depth.graph();
+    let zero = graph.constant(0.0);
     // any number but 0 divides where n stands still
     let divisor = |divisor: Expr<'g>| match call.early {
         true => choose(depth, zero, graph.constant(1.0), divisor),
@@ -83,22 +122,10 @@ pub(super) fn of_approach<'g>(
         let turned = stiffness.times(slope) - (xx + yy + zz) * slope;
         divisor(product).recip() * turned
     };
-    let turn = match call.early {
+    match call.early {
         true => Vec3(turn.0.map(|turn| choose(depth, zero, zero, turn))),
         false => turn,
-    };
-    let index = usize::from(call.part);
-    if index == count {
-        return deeper;
     }
-    let axis = |k: usize| axes(call)[k];
-    if index < count {
-        return turn.0[axis(index)];
-    }
-    let half = graph.constant(0.5);
-    let middle =
-        furthest[0] + curvatures[0].times(turn) - half * (deeper * n) - half * (depth * turn);
-    middle.0[axis(index - count - 1)]
 }
 
 /// The derivative of one result of `force::ellipsoid::support(x, y, z, power)`.
