@@ -24,8 +24,8 @@ pub const INTERRUPTED: &str = "not reached: interrupted by Ctrl-C";
 /// Is added to the rank of a setting that is run again; it exceeds the distance of any cost from the front.
 const LATER: f64 = 1e3;
 
-/// Time limit of a run whose time cannot be predicted, as a share of the limit of any run; at least this many times that
-/// of a usual run.
+/// Time limit of a run whose time cannot be predicted: this share of the limit of any run, or this multiple of the time
+/// of a usual run, if that is more.
 const FIRST: f64 = 0.25;
 const USUAL: f64 = 1.5;
 

@@ -103,7 +103,7 @@ pub enum StudyError {
 const REFERENCE: f64 = 1.0 / 3.0;
 const ERRORS: f64 = 2.0 / 3.0;
 
-/// The share of the budget that is the time limit of one run; it is at least this many times that of a usual run.
+/// Time limit of one run: this share of the budget, or this multiple of the time of a usual run, if that is more.
 const SHARE: f64 = 1.0 / 20.0;
 const USUAL: f64 = 3.0;
 

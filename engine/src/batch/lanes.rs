@@ -19,7 +19,8 @@ pub(super) trait Lanes: Send {
         range: Range<usize>,
         results: &mut [f64],
     );
-    /// Whether all values are within limits, which are repeated as often as the values.
+    /// Whether all values of rows are within limits. `limits` are the least and the greatest values of some rows, one
+    /// row after the other.
     fn within(&self, values: &[f64], limits: [&[f64]; 2]) -> bool;
     /// Takes steps from the rows of a range, and writes states and outputs.
     fn rollout(

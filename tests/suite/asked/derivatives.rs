@@ -96,128 +96,94 @@ fn a_law_without_derivatives_is_named_with_a_remedy() {
     assert_eq!(problems.matches("is not possible").count(), 1, "{problems}");
 }
 
-/// Ellipsoids that push each other or the ground, with outputs that need the nearest points of bodies that are apart.
-const PUSHES: [&str; 3] = [
-    // two stones in space, with friction
-    "model: stones
-dimension: 3
-systems:
-  - name: flint
-    elements: [{ name: body, mass: 2 kg, cg: [0.01, 0, -0.02], inertia: [0.02, 0.03, 0.025] }]
-    start: { position: [-0.15, 0.02, 0.01], velocity: [1, 0.1, 0], angles: { body: [20 deg, 30 deg, 10 deg] }, rates: { body: [1, -3, 2] } }
-  - name: basalt
-    elements: [{ name: body, mass: 3 kg, cg: [0, 0.01, 0], inertia: [0.05, 0.04, 0.03] }]
-    start: { angles: { body: [-50 deg, 10 deg, 70 deg] }, rates: { body: [0.5, 1, 0] } }
-forces:
-  - contact: hit
-    ellipsoid: { on: flint/body, center: [0.02, -0.01, 0.01], semi_axes: [0.12, 0.07, 0.09], axes: [10 deg, 40 deg, -20 deg] }
-    with: { on: basalt/body, center: [0, 0.02, 0], semi_axes: [0.15, 0.08, 0.1] }
-    elastic: { points: [[0, 0], [1 cm, 100], [2 cm, 1000]], extrapolate: linear }
-    damping: 20 N*s/m
-    friction: 0.4
-    friction_speed: 0.5 m/s
-outputs:
-  - { name: hit, of: contact hit, what: penetration }
-  - { name: force, of: contact hit, what: force }
-run: { duration: 0.4 s, every: 1 ms }
-",
-    // two ellipses in the plane
-    "model: ellipses
-dimension: 2
-systems:
-  - name: left
-    elements: [{ name: body, mass: 1 kg, cg: [0.01, 0.02], inertia: 0.005 }]
-    start: { position: [0, 0], velocity: [0.6, 0.8], rates: { body: 3 } }
-  - name: right
-    elements: [{ name: body, mass: 3 kg, cg: [0, 0], inertia: 0.02 }]
-    start: { position: [0.3, 0.15], angles: { body: 0.4 }, velocity: [-0.6, -0.8] }
-forces:
-  - contact: hit
-    ellipsoid: { on: left/body, center: [0.02, 0], semi_axes: [0.2, 0.1], axes: 10 deg }
-    with: { on: right/body, center: [0, 0.01], semi_axes: [0.25, 0.15], axes: -30 deg }
-    elastic: { points: [[0, 0], [1, 1e3]], extrapolate: linear }
-    damping: 20 N*s/m
-    friction: 0.4
-    friction_speed: 0.5 m/s
-outputs:
-  - { name: hit, of: contact hit, what: penetration }
-  - { name: force, of: contact hit, what: force }
-run: { duration: 0.4 s, every: 1 ms }
-",
-    // a rounded box on the ground
-    "model: rounded
+/// A rounded box that lies flat on the ground: two components of the direction in which it reaches farthest are 0.
+const FLAT: &str = "model: flat
 dimension: 3
 systems:
   - name: chest
     elements: [{ name: body, mass: 2 kg, cg: [0, 0, 0], inertia: [0.02, 0.03, 0.025] }]
-    start: { position: [0.3, 0, 0.1], velocity: [-1, 0.2, 0], angles: { body: [20 deg, 30 deg, 10 deg] }, rates: { body: [1, -3, 2] } }
+    start: { position: [0, 0, 0.11], velocity: [0.3, 0.2, -0.1], rates: { body: [1, -3, 2] } }
 forces:
   - contact: floor
-    ellipsoid: { on: chest/body, center: [0.01, 0, 0], semi_axes: [0.15, 0.1, 0.12], axes: [10 deg, 0, 5 deg], degree: 4 }
+    ellipsoid: { on: chest/body, center: [0, 0, 0], semi_axes: [0.15, 0.1, 0.12], degree: 4 }
     plane: { on: frame, at: [0, 0, 0], normal: [0, 0, 1] }
     elastic: { points: [[0, 0], [1, 2e3]], extrapolate: linear }
-    damping: 20 N*s/m
     friction: 0.4
-    friction_speed: 0.5 m/s
-outputs:
-  - { name: floor, of: contact floor, what: penetration }
-  - { name: force, of: contact floor, what: force }
+outputs: [{ name: floor, of: contact floor, what: penetration }]
 run: { duration: 1 s, every: 2 ms }
-",
-];
+";
 
-/// A body that touches and one that does not are both met, and both are differentiated.
-#[test]
-fn pushes_of_ellipsoids_are_differentiated_as_by_dual_numbers() {
-    for text in PUSHES {
-        let model = read(text);
-        let engine = engine(&model, &["linearisation".to_owned()]);
-        let info = engine.info();
-        let (nq, n) = (info.coordinates.len(), info.velocities.len());
-        let (machine, duals) = (engine.over::<f64>(), engine.over::<Dual<f64>>());
-        let mut random = Random::new(7);
-        let mut touching = [0; 2];
-        for _ in 0..60 {
-            let mut y = vec![0.0; info.state_length()];
-            machine.initial_state(&mut y);
-            for y in &mut y {
-                *y += random.uniform(-0.1, 0.1);
+/// Compares the linearisation with dual numbers at states that differ from the start by up to `change`; returns the
+/// number of states in which the output `touch` is above 0, and of all others.
+fn compared(model: &bryant_generator::model::Model, touch: &str, change: f64) -> [u32; 2] {
+    let engine = engine(model, &["linearisation".to_owned()]);
+    let across = engine.functions()[0].columns.len();
+    let info = engine.info();
+    let touch = info.outputs.iter().position(|of| of.name == touch).unwrap();
+    let (nq, n) = (info.coordinates.len(), info.velocities.len());
+    let (machine, duals) = (engine.over::<f64>(), engine.over::<Dual<f64>>());
+    let mut random = Random::new(7);
+    let mut touching = [0; 2];
+    for _ in 0..200 {
+        let mut y = vec![0.0; info.state_length()];
+        machine.initial_state(&mut y);
+        for y in &mut y[..nq + n] {
+            *y += random.uniform(-change, change);
+        }
+        machine.normalize(&mut y);
+        let linear = values(&engine, &machine, "linearisation", (0.0, &y), &vec![0.0; n]);
+        let mut outputs = vec![0.0; info.outputs.len()];
+        machine.outputs(0.0, &y, &mut outputs);
+        touching[usize::from(outputs[touch] <= 0.0)] += 1;
+        for column in 0..2 * n {
+            let mut unit = y.clone();
+            unit[nq..].fill(0.0);
+            unit[nq + column % n] = 1.0;
+            let mut along = vec![0.0; y.len()];
+            match column < n {
+                true => machine.coordinate_rates(&unit, &mut along),
+                false => along[nq + column - n] = 1.0,
             }
-            machine.normalize(&mut y);
-            let linear = values(&engine, &machine, "linearisation", (0.0, &y), &vec![0.0; n]);
-            let mut outputs = vec![0.0; info.outputs.len()];
-            machine.outputs(0.0, &y, &mut outputs);
-            touching[usize::from(outputs[0] > 0.0)] += 1;
-            for column in 0..2 * n {
-                let mut unit = y.clone();
-                unit[nq..].fill(0.0);
-                unit[nq + column % n] = 1.0;
-                let mut along = vec![0.0; y.len()];
-                match column < n {
-                    true => machine.coordinate_rates(&unit, &mut along),
-                    false => along[nq + column - n] = 1.0,
-                }
-                let entries = y.iter().zip(&along);
-                let state: Vec<Dual<f64>> = entries
-                    .map(|(&value, &slope)| Dual { value, slope })
-                    .collect();
-                let mut rates = vec![Dual::constant(0.0); y.len()];
-                duals.derivative(Dual::constant(0.0), &state, &mut rates);
-                let mut outputs = vec![Dual::constant(0.0); info.outputs.len()];
-                duals.outputs(Dual::constant(0.0), &state, &mut outputs);
-                let expected = rates[nq..nq + n].iter().chain(&outputs);
-                for (i, expected) in expected.enumerate() {
-                    let found = linear[(n + i) * 2 * n + column];
-                    // slopes up to 1e5, by two formulas; curvatures of bodies magnify rounding up to 1e2 times
-                    let error = (found - expected.slope).abs() / (1.0 + expected.slope.abs());
-                    assert!(
-                        error < 1e-8,
-                        "row {i}, column {column}: {found}, {}\n{text}",
-                        expected.slope
-                    );
-                }
+            let entries = y.iter().zip(&along);
+            let state: Vec<Dual<f64>> = entries
+                .map(|(&value, &slope)| Dual { value, slope })
+                .collect();
+            let mut rates = vec![Dual::constant(0.0); y.len()];
+            duals.derivative(Dual::constant(0.0), &state, &mut rates);
+            let mut outputs = vec![Dual::constant(0.0); info.outputs.len()];
+            duals.outputs(Dual::constant(0.0), &state, &mut outputs);
+            // v̇ and ż, then the outputs
+            let rates = &rates[nq..nq + n + info.auxiliaries.len()];
+            for (i, expected) in rates.iter().chain(&outputs).enumerate() {
+                let found = linear[(n + i) * across + column];
+                // two formulas; the curvatures of bodies magnify rounding
+                let error = (found - expected.slope).abs() / (1.0 + expected.slope.abs());
+                let name = &info.name;
+                assert!(
+                    error < 1e-8,
+                    "{name}: row {i}, column {column}: {found}, {}",
+                    expected.slope
+                );
             }
         }
-        assert!(touching.iter().all(|count| *count > 5), "{touching:?}");
     }
+    touching
+}
+
+/// Stones in space with friction, ellipses in the plane, a rounded box: apart and touching.
+#[test]
+fn pushes_of_ellipsoids_are_differentiated_as_by_dual_numbers() {
+    for (file, touch, change) in [
+        ("stones", "hit", 0.3),
+        ("discs", "planet", 0.1),
+        ("chest-drop", "floor", 0.4),
+    ] {
+        let model = model(&format!("models/{file}.yaml"));
+        let touching = compared(&model, touch, change);
+        assert!(
+            touching.iter().all(|count| *count > 5),
+            "{file}: {touching:?}"
+        );
+    }
+    assert_eq!(compared(&read(FLAT), "floor", 0.0), [200, 0]);
 }

@@ -15,6 +15,9 @@ use crate::expression::graph::{Expr, Graph, choose};
 use crate::expression::node::{ApproachCall, Function, NodeId};
 use crate::expression::vector::{Sym3, Vec3};
 
+/// The smallest part of its reach that counts in the runtime's `force::ellipsoid::support`.
+const SMALLEST: f64 = 1e-200;
+
 /// The derivative of one result of a search for the direction of least overlap, from those of its arguments.
 ///
 /// A search that may end early has any separating plane as its result while the bodies are apart. Then n has no
@@ -157,8 +160,7 @@ pub(super) fn of_support<'g>(
         return Ok(further);
     };
     let (reach, s) = (result(0), given[axis]);
-    // the smallest part that counts in the runtime's `support`
-    let flat = graph.constant(1e-200) * reach;
+    let flat = graph.constant(SMALLEST) * reach;
     let size = s.max(-s);
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let own = changes.0[axis] / choose(size, flat, one, s);
