@@ -1,7 +1,7 @@
 """The JSON Schemas of `bryant schema`, held against `bryant check` by another validator.
 
 Every bundled model keeps the schema of models. Mutants of them are read by both: what `check` accepts the schema accepts, and keys that are unknown or
-missing and values of another shape are found by the schema, too.
+missing and values of another shape are found by the schema, too. So are bare numbers of a wrong sign, where a key alone decides the sign.
 
     python3 schema.py BRYANT [SEED]
 """
@@ -19,6 +19,7 @@ import jsonschema
 import ruamel.yaml
 
 MUTANTS = 500
+REVERSED = 150
 # what `check` says of shapes; everything else needs more than one value to be seen
 SHAPES = ("has no key", "lacks the key", "is needed", "are needed", "none of the words", "has keys")
 
@@ -75,6 +76,21 @@ def mutate(tree, chance):
             return f"{path} {key} is {node[key]}"
 
 
+def numbers(tree):
+    """All bare numbers: what has them, and their keys or indices."""
+    for _, node in nodes(tree):
+        for key, value in node.items() if isinstance(node, dict) else enumerate(node):
+            if isinstance(value, (int, float)) and not isinstance(value, bool):
+                yield node, key
+
+
+def reverse(tree, chance):
+    """Changes the sign of a bare number; what was done."""
+    node, key = chance.choice(list(numbers(tree)))
+    node[key] = -node[key] if node[key] else -1
+    return f"{key} is {node[key]}"
+
+
 def said(text):
     """What `check` reports of a text."""
     with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
@@ -105,16 +121,21 @@ for _ in range(MUTANTS):
     name, tree = chance.choice(whole)
     tree = copy.deepcopy(tree)
     mutants.append((name, mutate(tree, chance), tree))
+for _ in range(REVERSED):
+    name, tree = chance.choice([(name, tree) for name, tree in whole if any(numbers(tree))])
+    tree = copy.deepcopy(tree)
+    mutants.append((name, reverse(tree, chance), tree))
 with concurrent.futures.ThreadPoolExecutor(2) as pool:
     answers = list(pool.map(said, [written(tree) for _, _, tree in mutants]))
 
-found = accepted = 0
+found = accepted = signs = 0
 for (name, what, tree), answer in zip(mutants, answers):
     fits = models.is_valid(tree)
     shape = any(words in answer for words in SHAPES)
     accepted += not answer
     found += not fits
+    signs += not fits and ("must be positive, but is" in answer or "must not be negative, but is" in answer)
     assert fits or answer, f"seed {seed}, {name}: the schema refuses what check accepts: {what}"
     assert not (fits and shape), f"seed {seed}, {name}: {what}\n{answer}"
-assert found > MUTANTS // 4 and accepted > MUTANTS // 20, (found, accepted)
-print(f"{MUTANTS} mutants, seed {seed}: {found} found by the schema, {accepted} right")
+assert found > MUTANTS // 4 and accepted > MUTANTS // 20 and signs > REVERSED // 20, (found, accepted, signs)
+print(f"{len(mutants)} mutants, seed {seed}: {found} found by the schema, {signs} of them by their sign, {accepted} right")

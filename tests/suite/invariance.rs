@@ -91,9 +91,9 @@ fn elsewhere(model: &Model) -> Option<Model> {
         } else if let Some(load) = law.get_mut::<Load>() {
             turn_components(&mut load.force);
         } else if let Some(contact) = law.get_mut::<Contact>() {
-            move_attachment(&mut contact.ellipsoid);
-            if contact.ellipsoid.on == Body::Frame {
-                quarter(&mut contact.axes[1]);
+            move_attachment(&mut contact.ellipsoid.center);
+            if contact.ellipsoid.center.on == Body::Frame {
+                quarter(&mut contact.ellipsoid.axes[1]);
             }
             match &mut contact.against {
                 Against::Plane(plane) if plane.at.on == Body::Frame => {

@@ -1,6 +1,6 @@
 //! Curves as written, and the places where one is used.
 
-use super::measure::{OfItsUse, OfTheFactor, Pure};
+use super::measure::{OfItsUse, OfTheFactor, Positive, Pure};
 use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of};
@@ -62,8 +62,8 @@ record! {
         curve: NameOrCurve,
         /// factor on the ordinate
         times: Option<Number<OfTheFactor>> = "1",
-        /// factor on the abscissa, positive: 2 makes a pulse of 80 ms one of 160 ms
-        stretch: Option<Number<Pure>> = "1",
+        /// factor on the abscissa: 2 makes a pulse of 80 ms one of 160 ms
+        stretch: Option<Number<Positive<Pure>>> = "1",
     }
 }
 

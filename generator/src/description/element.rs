@@ -1,7 +1,7 @@
 //! Elements as written.
 
 use super::joint::Joint;
-use super::measure::{Angle, Inertia, Length, Mass};
+use super::measure::{Angle, Inertia, Length, Mass, Positive};
 use super::mesh::Meshes;
 use super::quantity::{Number, OneOrThree};
 use super::shape::{record, words};
@@ -17,8 +17,8 @@ record! {
         at: Option<Vec<Number<Length>>> = "none for the root",
         /// what the [joint](#a-joint) lets the element do
         joint: Option<Joint> = "a ball in space, a hinge in the plane",
-        /// mass, positive
-        mass: Number<Mass>,
+        /// mass
+        mass: Number<Positive<Mass>>,
         /// centre of gravity, local frame
         cg: Vec<Number<Length>>,
         /// about the centre of gravity: the moment about y in the plane; in space the three principal moments, each at

@@ -2,7 +2,7 @@
 //! by the files of [kinds](crate::joint).
 
 use super::language::Language;
-use super::measure::{self, Armature, Pure, Ratio};
+use super::measure::{self, Armature, NotNegative, Pure, Ratio};
 use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of, list_of, words};
@@ -112,7 +112,7 @@ pub(super) fn keys(language: &Language) -> (&'static str, Vec<Key>) {
             "0",
             "is added to the coordinate: the position of the element where its coordinate is 0",
         ),
-            Key::of::<Option<Number<Armature>>>(
+            Key::of::<Option<Number<NotNegative<Armature>>>>(
             "armature",
             "0",
             "inertia that only the rate of this freedom moves: that of a rotor, times the square of its gear ratio",

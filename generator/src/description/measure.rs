@@ -1,7 +1,9 @@
 //! What a number is measured in: the physical quantities that keys expect, as values and as types. A key is declared
 //! with the type, from which reading, the reference page and the schema follow.
 
+use super::rule::Rule;
 use bryant_table::unit::Dimension;
+use std::marker::PhantomData;
 
 /// The physical quantity that a key expects.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +37,8 @@ impl Expected {
 
 /// What a number is measured in, as the reference page writes it.
 pub trait Unit: Clone + std::fmt::Debug + PartialEq + 'static {
+    /// The values that the number may have.
+    const RULE: Rule = Rule::Finite;
     /// The unit; "" where the number has none, or its meaning says it.
     fn unit() -> String;
 }
@@ -56,6 +60,83 @@ pub trait Measured: Unit {
     const EXPECTED: Expected;
 }
 
+/// The physical quantity of a number in a law that may be of a coordinate that slides, or of one that turns.
+pub trait InPlace: Unit {
+    /// The physical quantity, of a sliding coordinate or of a turning one.
+    fn expected(slides: bool) -> Expected;
+}
+
+macro_rules! in_place {
+    ($($name:ident: $slides:ident, $turns:ident;)*) => {$(
+        impl InPlace for $name {
+            fn expected(slides: bool) -> Expected {
+                if slides { $slides } else { $turns }
+            }
+        }
+    )*};
+}
+
+in_place! {
+    Displacement: LENGTH, ANGLE;
+    Effort: FORCE, TORQUE;
+    EffortPerCoordinate: STIFFNESS, ANGULAR_STIFFNESS;
+    EffortPerRate: LINEAR_DAMPING, ANGULAR_DAMPING;
+}
+
+/// `S` where a coordinate slides, `T` where it turns. The reference page writes the unit of `T`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Either<S, T>(PhantomData<(S, T)>);
+
+impl<S: Measured, T: Measured> Unit for Either<S, T> {
+    const RULE: Rule = T::RULE;
+
+    fn unit() -> String {
+        T::unit()
+    }
+}
+
+impl<S: Measured, T: Measured> InPlace for Either<S, T> {
+    fn expected(slides: bool) -> Expected {
+        match slides {
+            true => S::EXPECTED,
+            false => T::EXPECTED,
+        }
+    }
+}
+
+macro_rules! ruled {
+    ($($(#[$meta:meta])* $name:ident)*) => {$(
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct $name<U>(PhantomData<U>);
+
+        impl<U: Unit> Unit for $name<U> {
+            const RULE: Rule = Rule::$name;
+
+            fn unit() -> String {
+                U::unit()
+            }
+        }
+
+        impl<U: Measured> Measured for $name<U> {
+            const EXPECTED: Expected = U::EXPECTED;
+        }
+
+        impl<U: InPlace> InPlace for $name<U> {
+            fn expected(slides: bool) -> Expected {
+                U::expected(slides)
+            }
+        }
+    )*};
+}
+
+ruled! {
+    /// A number of `U` that is 0 or more.
+    NotNegative
+    /// A number of `U` that is more than 0.
+    Positive
+}
+
 macro_rules! measured {
     ($($name:ident $constant:ident = $words:literal $unit:literal [$m:literal $kg:literal $s:literal $rad:literal $kelvin:literal];)*) => {
     $(
@@ -71,6 +152,12 @@ macro_rules! measured {
 
         impl Measured for $name {
             const EXPECTED: Expected = $constant;
+        }
+
+        impl InPlace for $name {
+            fn expected(_: bool) -> Expected {
+                $constant
+            }
         }
 
         #[doc = concat!($words, " \\[", $unit, "\\]")]
@@ -106,6 +193,7 @@ measured! {
     LengthPerAngle LENGTH_PER_ANGLE = "a length per angle" "m/rad" [1 0 0 -1 0];
     AnglePerLength ANGLE_PER_LENGTH = "an angle per length" "rad/m" [-1 0 0 1 0];
     Coefficient FRICTION = "a coefficient of friction" "" [0 0 0 0 0];
+    ForcePerElongation FORCE_PER_ELONGATION = "a force per elongation" "N" [1 1 -2 0 0];
     Area AREA = "an area" "m²" [2 0 0 0 0];
     Pressure PRESSURE = "a pressure" "Pa" [-1 1 -2 0 0];
     MassFlow MASS_FLOW = "a mass per time" "kg/s" [0 1 -1 0 0];

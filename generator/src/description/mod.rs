@@ -30,6 +30,7 @@ pub mod person;
 pub mod place;
 pub mod point;
 pub mod quantity;
+pub mod rule;
 pub mod run;
 pub mod schema;
 pub mod shape;

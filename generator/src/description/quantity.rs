@@ -1,7 +1,8 @@
 //! A quantity as written: a number in SI units, a text (`20 deg`, `2 * belt_stiffness`), or `{ param: name }`.
 
 use super::place::At;
-use super::schema::{QUANTITY, Schema, any_of, typed};
+use super::rule::Rule;
+use super::schema::{QUANTITY, Schema, any_of, object, typed};
 use super::shape::{In, Misfit, Problems, Shape, check_record, misfit, record};
 use super::tree::Kind;
 use serde_yaml::Value;
@@ -28,11 +29,24 @@ record! {
     }
 }
 
+impl Quantity {
+    /// The JSON Schema of a quantity whose number keeps a rule. What a text or a parameter amounts to is known only to
+    /// reading.
+    pub fn ruled(to: &mut Schema, rule: Rule) -> Value {
+        let number = ("type", "number".into());
+        let number = match rule {
+            Rule::Finite => object([number]),
+            Rule::NotZero => object([number, ("not", object([("const", 0.into())]))]),
+            Rule::NotNegative => object([number, ("minimum", 0.into())]),
+            Rule::Positive => object([number, ("exclusiveMinimum", 0.into())]),
+        };
+        any_of([number, typed("string"), Param::schema(to)])
+    }
+}
+
 impl Shape for Quantity {
     fn schema(to: &mut Schema) -> Value {
-        to.define(QUANTITY, |to| {
-            any_of([typed("number"), typed("string"), Param::schema(to)])
-        })
+        to.define(QUANTITY, |to| Quantity::ruled(to, Rule::Finite))
     }
 
     fn check(at: At<'_>, problems: &Problems) {
@@ -83,6 +97,8 @@ impl<T> OneOrThree<T> {
 }
 
 impl<T: Shape> Shape for OneOrThree<T> {
+    const RULE: Rule = T::RULE;
+
     fn unit() -> String {
         T::unit()
     }

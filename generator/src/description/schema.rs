@@ -2,6 +2,8 @@
 //! what the shapes of values say; what numbers and names mean together is known only to reading.
 
 use super::language::Language;
+use super::quantity::Quantity;
+use super::rule::Rule;
 use super::shape::{Key, Record};
 use bryant_table::unit;
 use serde_yaml::{Mapping, Value};
@@ -93,6 +95,17 @@ impl Schema {
         reference(name)
     }
 
+    /// The values of a schema that keep a rule, if it is the schema of quantities.
+    pub fn ruled(&mut self, of: Value, rule: Rule) -> Value {
+        match of == reference(QUANTITY) && rule != Rule::Finite {
+            true => {
+                let name = format!("{QUANTITY} that {}", rule.words());
+                self.define(&name, |to| Quantity::ruled(to, rule))
+            }
+            false => of,
+        }
+    }
+
     /// A reference to a record.
     pub fn record<R: Record>(&mut self) -> Value {
         self.keys(R::TITLE, &R::keys())
@@ -103,7 +116,9 @@ impl Schema {
         self.define(title, |to| {
             let property = |key: &Key| {
                 let value = (key.schema)(to);
-                let example = key.example().filter(|_| value == reference(QUANTITY));
+                let quantity = self::reference(QUANTITY);
+                let is_quantity = value == to.ruled(quantity, key.rule);
+                let example = key.example().filter(|_| is_quantity);
                 let mut value = described(value, key.sentence());
                 if let (Value::Mapping(entries), Some(example)) = (&mut value, example) {
                     entries.insert("examples".into(), Value::Sequence(vec![example.into()]));
@@ -159,7 +174,7 @@ fn without_links(text: &str) -> String {
 impl Key {
     /// Meaning, unit and default in one line.
     pub fn sentence(&self) -> String {
-        let unit = match (self.unit)() {
+        let unit = match self.measure() {
             unit if unit.is_empty() => String::new(),
             unit => format!(" [{unit}]"),
         };
@@ -168,6 +183,16 @@ impl Key {
             default => format!("; default: {default}"),
         };
         without_links(&format!("{}{unit}{default}", self.meaning.trim()))
+    }
+
+    /// The unit of its numbers and the values that they may have: "N·s/m, ≥ 0"; "" where there is neither.
+    pub fn measure(&self) -> String {
+        let unit = (self.unit)();
+        match (unit.is_empty(), self.rule.bound()) {
+            (_, "") => unit,
+            (true, bound) => bound.to_owned(),
+            (false, bound) => format!("{unit}, {bound}"),
+        }
     }
 
     /// A number with the unit of the key, as texts spell it.
@@ -179,7 +204,7 @@ impl Key {
 
     /// Its row of the reference page.
     pub fn row(&self) -> String {
-        let unit = match (self.unit)() {
+        let unit = match self.measure() {
             unit if unit.is_empty() => " ".to_owned(),
             unit => format!(" {unit} "),
         };

@@ -9,10 +9,11 @@ use super::language::Language;
 use super::measure::Unit;
 use super::mend::Correction;
 use super::place::At;
+use super::rule::Rule;
 use super::schema::{Schema, list_of, mapping_of, typed};
 use super::slip;
 use super::tree::{Entry, Kind, Span};
-use crate::diagnostic::{Diagnostic, Diagnostics, nearest, quoted};
+use crate::diagnostic::{Diagnostic, nearest, quoted};
 pub use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
 use std::marker::PhantomData;
@@ -93,15 +94,6 @@ impl Problems {
     pub fn kept(&self) -> usize {
         self.kept.borrow().len()
     }
-
-    /// `value` where there is no problem.
-    pub fn into_result<T>(self, value: Option<T>) -> Result<T, Diagnostics> {
-        let problems = self.kept.into_inner();
-        match value {
-            Some(value) if problems.is_empty() => Ok(value),
-            _ => Err(Diagnostics { problems }),
-        }
-    }
 }
 
 /// What a value may look like.
@@ -112,6 +104,8 @@ pub trait Shape: Sized {
     fn unit() -> String {
         String::new()
     }
+    /// The values that its numbers may have.
+    const RULE: Rule = Rule::Finite;
     /// Its JSON Schema; what has a name is defined in `to`.
     fn schema(to: &mut Schema) -> Value;
     /// Reports what cannot be read.
@@ -146,13 +140,6 @@ pub trait Shape: Sized {
 #[derive(Clone, Debug, PartialEq)]
 pub struct In<S, U>(S, PhantomData<U>);
 
-impl<S: Clone, U> In<S, U> {
-    /// The same, measured in something else.
-    pub fn measured_in<V>(&self) -> In<S, V> {
-        In(self.0.clone(), PhantomData)
-    }
-}
-
 impl<S, U> Deref for In<S, U> {
     type Target = S;
     fn deref(&self) -> &S {
@@ -161,12 +148,15 @@ impl<S, U> Deref for In<S, U> {
 }
 
 impl<S: Shape, U: Unit> Shape for In<S, U> {
+    const RULE: Rule = U::RULE;
+
     fn unit() -> String {
         U::unit()
     }
 
     fn schema(to: &mut Schema) -> Value {
-        S::schema(to)
+        let any = S::schema(to);
+        to.ruled(any, U::RULE)
     }
 
     fn check(at: At<'_>, problems: &Problems) {
@@ -223,6 +213,8 @@ pub struct Key {
     pub optional: bool,
     /// What its numbers are measured in; "" where it has none.
     pub unit: fn() -> String,
+    /// The values that its numbers may have.
+    pub rule: Rule,
     /// What holds where the key is left out, as the reference page says it.
     pub default: &'static str,
     /// What it means: the sentence of the reference page.
@@ -244,6 +236,7 @@ impl Key {
             name,
             optional: T::OPTIONAL,
             unit: T::unit,
+            rule: T::RULE,
             default: match default.as_bytes() {
                 [] if T::OPTIONAL => "none",
                 [] => "required",
@@ -563,6 +556,8 @@ fn is_number(text: &str) -> bool {
 
 impl<T: Shape> Shape for Option<T> {
     const OPTIONAL: bool = true;
+    const RULE: Rule = T::RULE;
+
     fn unit() -> String {
         T::unit()
     }
@@ -584,6 +579,8 @@ impl<T: Shape> Shape for Option<T> {
 }
 
 impl<T: Shape> Shape for Vec<T> {
+    const RULE: Rule = T::RULE;
+
     fn unit() -> String {
         T::unit()
     }

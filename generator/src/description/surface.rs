@@ -1,6 +1,6 @@
 //! Surfaces as written: ellipsoids and planes on bodies, which meet in contacts and are drawn.
 
-use super::measure::{Angle, Length, Pure};
+use super::measure::{Angle, Length, Positive, Pure};
 use super::place::At;
 use super::quantity::{Number, OneOrThree};
 use super::schema::{Schema, any_of};
@@ -14,8 +14,8 @@ record! {
         on: String,
         /// centre, local frame
         center: Vec<Number<Length>>,
-        /// half the extents along its own axes, positive: `[x, z]` in the plane
-        semi_axes: Vec<Number<Length>>,
+        /// half the extents along its own axes: `[x, z]` in the plane
+        semi_axes: Vec<Number<Positive<Length>>>,
         /// Bryant angles of its axes relative to the local frame; one angle in the plane
         axes: Option<OneOrThree<Number<Angle>>> = "0",
         /// the even n of Σ (xᵢ/aᵢ)ⁿ = 1, up to 100: 2 is an ellipsoid, 4 and more are rounded boxes, the sharper the
@@ -39,7 +39,7 @@ record! {
         /// normal × first. In `extent: [a, b]`, a is half the length along the first, b along the second
         along: Option<Vec<Number<Pure>>> = "the local axis most across the normal: x, or y for a normal along x",
         /// from `at` to its edges: one half-length in the plane x–z; in space `[a, b]`, along the two tangents
-        extent: Option<OneOrThree<Number<Length>>> = "endless",
+        extent: Option<OneOrThree<Number<Positive<Length>>>> = "endless",
         /// what happens [there](#an-edge)
         edge: Option<Edge> = "fades over the depth",
         /// of a named surface: `true` adds its [mirror image](#a-mirror)
@@ -52,8 +52,8 @@ record! {
     Edge as "an edge" {
         /// `cut` or `fade`
         rule: Option<EdgeRule> = "`fade`",
-        /// for `fade`: over how much, more than 0 and at most the shorter half-length
-        width: Option<Number<Length>> = "the expected depth, see above",
+        /// for `fade`: over how much, at most the shorter half-length
+        width: Option<Number<Positive<Length>>> = "the expected depth, see above",
     }
 }
 

@@ -1,6 +1,6 @@
 //! Switches as written: what makes them fire.
 
-use super::measure::{OfTheQuantity, Time};
+use super::measure::{NotNegative, OfTheQuantity, Time};
 use super::output::{Axis, Component};
 use super::point::Point;
 use super::quantity::Number;
@@ -14,7 +14,7 @@ record! {
         /// [what makes it fire](#a-trigger)
         when: Trigger,
         /// time from the trigger until the switch acts
-        after: Option<Number<Time>> = "0",
+        after: Option<Number<NotNegative<Time>>> = "0",
     }
 }
 

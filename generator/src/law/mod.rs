@@ -2,13 +2,13 @@
 //!
 //! | file of a folder | has |
 //! |---|---|
-//! | `keys.rs` | the keys of the YAML (`Keys`), and how they change in a mirror image |
-//! | `check.rs` | the checked form, and how it is made from the keys |
-//! | `terms.rs` | its numbers and terms ([`Terms`](crate::model::law::Terms)): the permitted values, and which parts may be left out |
+//! | `keys.rs` | the keys, each declared once ([`declare!`](crate::declare)): meaning, unit, permitted values, default, term; the structs of the law follow |
+//! | `check.rs` | if there is much of it: what several keys mean together, and kinds of keys that no other law has |
+//! | `terms.rs` | if there is much of it: conditions on several numbers, and what has no effect without something else ([`Terms`](crate::model::law::Terms)) |
 //! | `force.rs` | its equations ([`Equations`]): forces and moments on bodies, events, states, powers |
 //! | `outputs.rs` | its outputs, and its visible parts (`Outputs`, [`Measures`](crate::force::Measures), [`Visible`](crate::model::law::Visible)) |
 //!
-//! To add a law, add a folder such as `bushing/`, its `mod` here and its line in `laws!`. Equations, effects, pictures
+//! To add a law, add a folder such as `spring/`, its `mod` here and its line in `laws!`. Equations, effects, pictures
 //! and reports never ask a force which law it is. Pages and tests must be extended besides: `docs/forces/`,
 //! `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in
 //! `tests/suite/{snapshots,invariance}.rs`.
@@ -71,13 +71,13 @@ pub fn applied_forces<'g>(
     applied
 }
 
-/// Registers the laws, in the order of the reference page. For each: the folder, the struct of its keys, and the structs
-/// of its checked forms.
+/// Registers the laws, in the order of the reference page. For each: the folder, the type of its keys, the file of its
+/// public types, and the structs of its checked forms.
 macro_rules! laws {
-    ($($folder:ident::$keys:ident { $($(#[$meta:meta])* $law:ident,)* })*) => {
+    ($($folder:ident::$keys:ident in $types:ident { $($(#[$meta:meta])* $law:ident,)* })*) => {
         /// The checked forms of all laws, and the types of their quantities.
         pub mod types {
-            $(pub use super::$folder::check::*;
+            $(pub use super::$folder::$types::*;
             #[allow(unused_imports, reason = "some laws have nothing to ask")]
             pub use super::$folder::outputs::*;)*
         }
@@ -132,41 +132,41 @@ macro_rules! laws {
 }
 
 laws! {
-    joint::Joint {
+    joint::Joint in check {
         /// Torques about the relative rotations of a joint.
         Joint,
         /// Torque or force of one freedom of a joint.
         Freedom,
     }
-    field::Field {
+    field::FieldKeys in keys {
         /// Uniform acceleration: a force m·a at the centre of gravity of every element that feels it.
         Field,
     }
-    contact::Contact {
+    contact::ContactKeys in check {
         /// Contact of an ellipsoid (an ellipse in the plane) with a plane (a line) or another ellipsoid.
         Contact,
     }
-    belt::Belt {
+    belt::BeltKeys in check {
         /// A belt: a tensile force along the lines between two attachments and the rings between them.
         Belt,
     }
-    spring::Spring {
+    spring::SpringKeys in keys {
         /// Spring and damper between two points.
         Spring,
     }
-    bushing::Bushing {
+    bushing::BushingKeys in keys {
         /// Springs and dampers in six directions between frames of two bodies.
         Bushing,
     }
-    airbag::Airbag {
+    airbag::AirbagKeys in check {
         /// An airbag.
         Airbag,
     }
-    load::Load {
+    load::LoadKeys in keys {
         /// A given force and moment on an element.
         Load,
     }
-    user::User {
+    user::User in check {
         /// Forces computed by a function of the user's.
         User,
     }

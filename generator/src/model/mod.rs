@@ -10,6 +10,7 @@ mod body;
 mod coefficient;
 mod criteria;
 mod curve;
+pub mod declared;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod digest;

@@ -2,9 +2,8 @@
 //!
 //! law = geometry + Σ terms. A term is one summand of the force, which exists because of a coefficient or a curve.
 //!
-//! Every struct of a law is destructured here without `..`, so that a new field does not compile until it is declared
-//! here. The vocabulary of effects, the normal form of a model, and the scene with nothing left out know nothing of a
-//! law but these declarations.
+//! They follow from the declaration of the law ([`declared`](super::declared)). The vocabulary of effects, the normal
+//! form of a model, and the scene with nothing left out know nothing of a law but these.
 
 use super::body::{Attachment, Body};
 use super::coefficient::{Bristle, FieldComponent, Friction, Hysteresis};
@@ -223,45 +222,6 @@ impl Part for Option<FieldComponent> {
         self.iter_mut().flat_map(Part::curves).collect()
     }
 }
-
-/// Implements [`Part`] for structs that are never 0 if written, and are not added to a scene that does not have them.
-/// The keys of their numbers are below the key of the struct, by the names of the fields.
-macro_rules! as_written {
-    ($($part:ident { $($number:ident: $rule:ident),* } { $($optional:ident: $may:ident),* } [$($curve:ident),*] $(- $rest:ident)*;)*) => {$(
-        impl Part for Option<$part> {
-            fn is_in(&self) -> bool {
-                self.is_some()
-            }
-            fn leave_out(&mut self) {
-                *self = None;
-            }
-            fn put_in(&mut self, _: &mut Fresh<'_>) {}
-            fn numbers(&mut self) -> Vec<Ruled<'_>> {
-                let mut numbers: Vec<Ruled<'_>> = Vec::new();
-                if let Some($part { $($number,)* $($optional,)* $($curve,)* $($rest: _,)* }) = self {
-                    $(numbers.push(Ruled::below(stringify!($number), Rule::$rule, $number));)*
-                    $(numbers.extend($optional.iter_mut().map(|number| {
-                        Ruled::below(stringify!($optional), Rule::$may, number)
-                    }));)*
-                    $(numbers.extend($curve.numbers().into_iter().map(|number| {
-                        number.under(stringify!($curve))
-                    }));)*
-                }
-                numbers
-            }
-            fn curves(&mut self) -> Vec<&mut ScaledCurve> {
-                match self {
-                    Some(_part) => {
-                        let curves: [Vec<&mut ScaledCurve>; _] = [$(_part.$curve.curves()),*];
-                        curves.into_iter().flatten().collect()
-                    }
-                    None => Vec::new(),
-                }
-            }
-        }
-    )*};
-}
-pub(crate) use as_written;
 
 /// The unloading curve, and the steep line that leads to it.
 impl Part for Option<Hysteresis> {

@@ -9,7 +9,7 @@ pub const FILES: &[&str] = &[
     include_str!("../expression/node.rs"),
     include_str!("../method/mod.rs"),
     include_str!("../model/curve.rs"),
-    include_str!("../model/rule.rs"),
+    include_str!("../description/rule.rs"),
     include_str!("../model/units.rs"),
 ];
 

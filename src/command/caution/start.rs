@@ -207,7 +207,7 @@ impl<'a> Start<'a> {
             parameters: self.parameters,
         };
         let [centre, origin] =
-            [&contact.ellipsoid, &plane.at].map(|place| self.pose.point(&numbers, place));
+            [&contact.ellipsoid.center, &plane.at].map(|place| self.pose.point(&numbers, place));
         let body = self.pose.body(plane.at.on);
         let local = numbers.vector(&plane.normal);
         let normal = body.direction(local);
@@ -225,7 +225,7 @@ impl<'a> Start<'a> {
                 return None;
             }
         }
-        let semi_axes = numbers.vector(&contact.semi_axes);
+        let semi_axes = numbers.vector(&contact.ellipsoid.semi_axes);
         let used = match self.model.dimension {
             Dimension::Plane => &[0, 2][..],
             Dimension::Space => &[0, 1, 2][..],
@@ -242,7 +242,7 @@ impl<'a> Start<'a> {
             };
             let (height, reach) = self.place(contact, force.active)?;
             (height < -ROUNDING * reach).then(|| {
-                let body = name_of(self.model, contact.ellipsoid.on);
+                let body = name_of(self.model, contact.ellipsoid.center.on);
                 format!(
                     "contact \"{}\" begins with {body} on the wrong side: the centre of its ellipsoid is {} m behind the plane, which pushes from there with all its force\n  \
                      help: the normal points to the side where the body belongs; turn it round, or move the body or the plane",

@@ -166,11 +166,13 @@ fn forces_agree(model: &Model) -> bool {
             {
                 return false;
             }
-            ForceKind::Contact(contact) => vec![[contact.ellipsoid.on, contact.against.place().on]],
+            ForceKind::Contact(contact) => {
+                vec![[contact.ellipsoid.center.on, contact.against.place().on]]
+            }
             ForceKind::Airbag(airbag) => airbag
                 .against
                 .iter()
-                .map(|other| [airbag.bag.center.on, other.center.on])
+                .map(|other| [airbag.ellipsoid.center.on, other.center.on])
                 .collect(),
             _ => continue,
         };

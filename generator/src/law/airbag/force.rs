@@ -126,14 +126,14 @@ fn apply<'g>(
     let taken = meetings
         .iter()
         .fold(graph.constant(0.0), |sum, m| sum + m.volume);
-    let share = taken / volume(graph, &airbag.bag);
+    let share = taken / volume(graph, &airbag.ellipsoid);
     applied.volume(&owner, move || share, over);
     let outflow = gas.flow(graph, model, applied, &owner, airbag, shrinking);
     AirbagMeasures {
         on: push(applied, &owner, airbag, &meetings, over),
         names: names(model, name, airbag),
         pressure: gas.pressure,
-        temperature: gas.heat / number(graph, &airbag.constant),
+        temperature: gas.heat / number(graph, &airbag.gas.constant),
         mass: gas.mass.1,
         volume: gas.less * gas.energy.1 / gas.pressure,
         outflow,
@@ -158,7 +158,7 @@ fn left<'g>(
     airbag: &Airbag,
     displaced: impl Iterator<Item = Expr<'g>>,
 ) -> Expr<'g> {
-    let whole = volume(graph, &airbag.bag);
+    let whole = volume(graph, &airbag.ellipsoid);
     let displaced = displaced.fold(graph.constant(0.0), |sum, volume| sum + volume);
     (whole - displaced).max(graph.constant(LEAST) * whole)
 }
@@ -178,7 +178,7 @@ fn push<'g>(
         // the normal points from the other body to the bag
         let push = -(force * meeting.touch.normal);
         applied.apply(other.center.on, meeting.touch.offset_on_second, push);
-        applied.apply(airbag.bag.center.on, meeting.touch.offset, -push);
+        applied.apply(airbag.ellipsoid.center.on, meeting.touch.offset, -push);
         applied.work(
             format!("{owner}: gas"),
             Product::Scalars(-force, meeting.touch.approach),
@@ -192,9 +192,7 @@ fn push<'g>(
 /// A bag and an ellipsoid that it meets, as a contact without force: for its geometry.
 fn contact(airbag: &Airbag, other: &Ellipsoid) -> Contact {
     Contact {
-        ellipsoid: airbag.bag.center.clone(),
-        semi_axes: airbag.bag.semi_axes.clone(),
-        axes: airbag.bag.axes.clone(),
+        ellipsoid: airbag.ellipsoid.clone(),
         degree: 2,
         against: Against::Ellipsoid(other.clone()),
         elastic: None,
@@ -248,7 +246,7 @@ fn tell<'g>(
 
 /// Radii of the spheres with the volumes of the bag and of an ellipsoid \[m\].
 fn radii<'g>(graph: &'g Graph, airbag: &Airbag, other: &Ellipsoid) -> [Expr<'g>; 2] {
-    [&airbag.bag, other].map(|ellipsoid| radius(graph, ellipsoid))
+    [&airbag.ellipsoid, other].map(|ellipsoid| radius(graph, ellipsoid))
 }
 
 /// (4/3) π a b c \[m³\]
@@ -344,8 +342,12 @@ impl<'g> Gas<'g> {
         airbag: &Airbag,
         [left, left_at_start]: [Expr<'g>; 2],
     ) -> Self {
-        let [constant, gamma, around] = [&airbag.constant, &airbag.gamma, &airbag.ambient_pressure]
-            .map(|given| number(graph, given));
+        let [constant, gamma, around] = [
+            &airbag.gas.constant,
+            &airbag.gas.gamma,
+            &airbag.ambient.pressure,
+        ]
+        .map(|given| number(graph, given));
         let less = gamma - graph.constant(1.0);
         let (pressure, temperature, size) = match &airbag.start {
             Some(start) => (
@@ -355,8 +357,8 @@ impl<'g> Gas<'g> {
             ),
             None => (
                 around,
-                number(graph, &airbag.ambient_temperature),
-                graph.constant(FOLDED) * volume(graph, &airbag.bag),
+                number(graph, &airbag.ambient.temperature),
+                graph.constant(FOLDED) * volume(graph, &airbag.ellipsoid),
             ),
         };
         let initial = pressure * size / (constant * temperature);
@@ -397,7 +399,7 @@ impl<'g> Gas<'g> {
         let mut enthalpy = -(per_mass * out * self.heat);
         if let Some(inflow) = &airbag.inflow {
             into = flow_in(graph, model, applied, owner, inflow);
-            let hot = number(graph, &airbag.constant) * number(graph, &inflow.temperature);
+            let hot = number(graph, &airbag.gas.constant) * number(graph, &inflow.temperature);
             enthalpy = per_mass * into * hot + enthalpy;
         }
         let full = enthalpy + self.pressure * shrinking;

@@ -1,105 +1,126 @@
 //! The keys of an airbag.
 
-use crate::description::curve::FunctionOf;
-use crate::description::expand::{Expander, Node};
-use crate::description::measure::{Area, GasConstant, MassFlow, Pressure, Pure, Temperature, Time};
-use crate::description::place::At;
+use super::check::{self, Jet, NeverNegative};
+use crate::description::measure::{
+    Area, GasConstant, MassFlow, NotNegative, Positive, Pressure, Pure, Temperature, Time,
+};
 use crate::description::quantity::Number;
 use crate::description::shape::{Key, record};
-use crate::description::short::ByName;
-use crate::description::surface::Ellipsoid;
-use crate::model::law::Law;
-use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Keys, record};
+use crate::model::Ellipsoid;
+use crate::model::declared::{
+    Checked, Declared, DeclaredLaw, OrDefault, Present, Reader, Required, RequiredCurve,
+    SwitchName, Written, declare,
+};
+use crate::model::resolve::law::record;
 
-record! {
-    /// A bag that gas fills, and that pushes what it meets.
-    Airbag as "an airbag" {
+/// The keys of an airbag.
+pub type AirbagKeys = Written<Airbag>;
+
+declare! {
+    /// A bag that gas fills, and that pushes what it meets. Its gas has one pressure.
+    Airbag as "an airbag" only written {
         /// name, unique among the airbags
         airbag: String,
         /// `false` leaves the force out
         enabled: Option<bool> = "`true`",
         /// `true` adds its [mirror image](#a-mirror)
         mirror: Option<bool> = "`false`",
+    } and kept {
         /// its [shape](#an-ellipsoid) when full, in place or by the [name of a surface](#named-surfaces)
-        ellipsoid: ByName<Ellipsoid>,
+        ellipsoid: Ellipsoid,
         /// a list of the ellipsoids that it meets, on other bodies: in place, or by the names of surfaces and groups
-        against: Vec<ByName<Ellipsoid>>,
+        against: Vec<Ellipsoid>,
+        /// [what the gas is](#a-gas), of bag and inflow
+        gas: Present<Gas> = "air",
+        /// [the air](#the-air-around-a-bag) around the bag
+        ambient: Present<Ambient> = "101 325 Pa, 293.15 K",
         /// [gas that flows in](#an-inflow)
         inflow: Option<Inflow>,
-        /// [what the gas is](#a-gas), of bag and inflow
-        gas: Option<Gas> = "air",
+        /// the [gas](#the-gas-of-a-full-bag) of a bag that is full at the start. Without it a thousandth of the volume
+        /// is filled with ambient air
+        start: Option<Filled> as "gas at the start" = "folded",
         /// [a hole](#a-vent) through which gas flows out
-        vent: Option<Vent>,
-        /// [the air](#the-state-of-a-gas) around the bag
-        ambient: Option<Air> = "101 325 Pa, 293.15 K",
-        /// the [gas](#the-state-of-a-gas) of a bag that is full at the start; give both of its numbers. Without it a
-        /// thousandth of the volume is filled with ambient air
-        start: Option<Air> = "folded",
+        vent: Jet as "vent" needs "there is no gas",
     }
 }
 
-record! {
+declare! {
     /// A source of gas.
     Inflow as "an inflow" {
         /// the [switch](#a-switch) that fires it
-        fire: String,
+        fire: SwitchName,
         /// mass of gas per time, against the time since then; never negative
-        flow: FunctionOf<Time, MassFlow>,
+        flow: Checked<RequiredCurve<Time, MassFlow>, NeverNegative>,
         /// absolute temperature of that gas
-        temperature: Number<Temperature>,
+        temperature: Required<Positive<Temperature>>,
     }
 }
 
-record! {
+impl Declared for Inflow {}
+
+declare! {
     /// A perfect gas.
     Gas as "a gas" {
         /// gas constant R
-        constant: Option<Number<GasConstant>> = "287",
+        constant: OrDefault<Positive<GasConstant>> = "287",
         /// ratio of specific heats γ, more than 1
-        gamma: Option<Number<Pure>> = "1.4",
+        gamma: OrDefault<Positive<Pure>> = "1.4",
     }
 }
+
+impl Declared for Gas {}
+
+declare! {
+    /// The air around a bag, and the little gas in it before the inflow begins.
+    Ambient as "the air around a bag" {
+        /// absolute pressure
+        pressure: OrDefault<Positive<Pressure>> = "101325 Pa",
+        /// absolute temperature
+        temperature: OrDefault<Positive<Temperature>> = "293.15 K",
+    }
+}
+
+impl Declared for Ambient {}
+
+declare! {
+    /// The gas of a bag that is full at the start.
+    Filled as "the gas of a full bag" {
+        /// absolute pressure, at least that around the bag
+        pressure: Required<Positive<Pressure>>,
+        /// absolute temperature
+        temperature: Required<Positive<Temperature>>,
+    }
+}
+
+impl Declared for Filled {}
 
 record! {
     /// A hole that gas flows out of.
     Vent as "a vent" {
         /// its area
-        area: Number<Area>,
+        area: Number<NotNegative<Area>>,
         /// share of the area that the jet fills (discharge coefficient)
         coefficient: Option<Number<Pure>> = "1",
     }
 }
 
-record! {
-    /// A state of a gas.
-    Air as "the state of a gas" {
-        /// absolute pressure
-        pressure: Option<Number<Pressure>> = "101 325 Pa around a bag",
-        /// absolute temperature
-        temperature: Option<Number<Temperature>> = "293.15 K around a bag",
-    }
-}
-
-impl Keys for Airbag {
+impl DeclaredLaw for Airbag {
     const KEY: &'static str = "airbag";
+    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] = &[
+        record::<Written<Inflow>>,
+        record::<Written<Gas>>,
+        record::<Vent>,
+        record::<Written<Ambient>>,
+        record::<Written<Filled>>,
+    ];
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
-        super::check::airbag(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
+    fn check_keys(name: &str, reader: &Reader<'_, '_, '_>) {
+        check::check_keys(name, reader);
     }
 
-    fn records() -> Vec<(&'static str, Vec<Key>)> {
-        vec![
-            record::<Airbag>(),
-            record::<Inflow>(),
-            record::<Gas>(),
-            record::<Vent>(),
-            record::<Air>(),
-        ]
-    }
-
-    fn mirror(expander: &Expander<'_>, image: &mut Node) {
-        image.change("ellipsoid", |bag| expander.mirrored_by_name(bag));
-        expander.mirrored_list(image, "against");
+    fn check(self, name: &str, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
+        check::check_bodies(&self, name, reader);
+        // a flow that is 0 everywhere is none, and a folded bag without one does nothing
+        (self.inflow.is_some() || self.start.is_some()).then_some(self)
     }
 }

@@ -71,7 +71,7 @@ impl Outputs for Airbag {
 
 impl Visible for Airbag {
     fn looks(&self) -> Vec<Look<'_>> {
-        let bag = Look::Bag(self.bag.round(), Box::new(AirbagQuantity::Volume));
+        let bag = Look::Bag(self.ellipsoid.round(), Box::new(AirbagQuantity::Volume));
         let others = self.against.iter().map(|other| Look::Round(other.round()));
         std::iter::once(bag).chain(others).collect()
     }

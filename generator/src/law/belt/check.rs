@@ -1,65 +1,31 @@
-//! Belts: two ends, a tension curve against relative elongation, a positive untensioned length, and devices that change
-//! it.
+//! What a belt is made of: the rings that it runs through, its tension curve, its untensioned length, and the devices
+//! that change it.
 
-use super::keys::{
-    Belt as Written, Limiter as WrittenLimiter, Pretensioner as WrittenPretensioner,
-    Retractor as WrittenRetractor,
+use super::keys::Limiter;
+pub use super::keys::{Belt, Pretensioner, Retractor, Ring};
+use crate::description::curve::FunctionOf;
+use crate::description::expand::{Expander, Node};
+use crate::description::measure::{
+    Expected, FORCE, FORCE_PER_ELONGATION, Force, LENGTH, Length, PURE, Pure, STIFFNESS, Webbing,
 };
-use crate::description::measure::{Expected, FORCE, LENGTH, PURE, STIFFNESS};
 use crate::description::place::At;
-use crate::description::quantity::Quantity;
+use crate::description::quantity::{Number as WrittenNumber, Quantity};
 use crate::diagnostic::quoted;
+use crate::model::declared::{
+    Condition, Declaration, Declared, Kind, Loading, Names, NoKey, Reader,
+};
+use crate::model::part::{Field, Term};
 use crate::model::resolve::Resolver;
-use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::kinematics::{IDENTITY, Matrix, distance, place, start, vehicle_start};
 use crate::model::resolve::quantity::Measure;
-use crate::model::{Attachment, Hysteresis, Number, Reference, Rule, ScaledCurve, System};
+use crate::model::{Attachment, Body, Number, Reference, Rule, ScaledCurve, System};
 use serde::Serialize;
-
-/// Stretch from which on damping has its full size, if the user gives none \[m\].
-const DAMPING_STRETCH: f64 = 1e-3;
-
-/// Slope of a curve against relative elongation.
-const SLOPE: Expected = Expected {
-    name: "a force per elongation",
-    dimension: FORCE.dimension,
-};
+use serde_yaml::Value;
 
 /// The condition on the factor of a belt's curve, in the words of a requirement.
 fn no_force(belt: &str) -> String {
     let rule = Rule::NotZero.words();
     format!("`force.times` of belt {} {rule}", quoted(belt))
-}
-
-/// A belt between two attachments.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Belt {
-    /// One end.
-    pub from: Attachment,
-    /// The other end.
-    pub to: Attachment,
-    /// The rings that it runs through, in order from `from`.
-    pub rings: Vec<Ring>,
-    /// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
-    pub force: ScaledCurve,
-    /// A different curve for unloading, against the relative elongation.
-    pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient on the rate of stretch \[N s/m\]; the tension is never negative, and zero while the belt is
-    /// slack.
-    pub damping: Option<Number>,
-    /// Stretch up to which damping grows from 0 to its full size \[m\]; `None` for full damping at once.
-    pub damping_stretch: Option<Number>,
-    /// Untensioned length L₀; not used with a retractor.
-    pub length: BeltLength,
-    /// Pays out webbing until it locks. It is at the end `from`, as are pretensioner and limiter.
-    pub retractor: Option<Retractor>,
-    /// Tension of the reel beyond that of the spool once the retractor has locked, against the webbing that has come
-    /// off the reel since \[m\] → \[N\].
-    pub film_spool: Option<ScaledCurve>,
-    /// Takes webbing in after its switch fires.
-    pub pretensioner: Option<Pretensioner>,
-    /// Largest tension \[N\]. Where the tension would be larger, webbing is paid out for good.
-    pub limiter: Option<Number>,
 }
 
 /// The way in which the untensioned length of a belt is given.
@@ -104,181 +70,208 @@ pub fn must_have_length(belt: &str) -> String {
     format!("the ends of belt \"{belt}\" must not coincide at the start")
 }
 
-/// A reel that pays out and takes in webbing under a constant tension until it locks.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Retractor {
-    /// The switch that locks the reel: index into [`Model::switches`](crate::model::Model::switches).
-    pub lock: usize,
-    /// Tension until the reel locks \[N\], not negative.
-    pub spool: Number,
+/// The name of the belt that is read.
+fn name<'w>(reader: &Reader<'_, '_, 'w>) -> &'w str {
+    let name = reader.value.get("belt").and_then(Value::as_str);
+    name.unwrap_or_default()
 }
 
-/// A ring that a belt slips through.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Ring {
-    /// Name, unique in the belt.
-    pub name: String,
-    /// The position of the ring.
-    pub on: Attachment,
-    /// Coefficient of friction μ: webbing slips if the tensions differ by more than the factor e^(μ θ).
-    pub friction: Option<Number>,
-    /// Resistance: tension beyond the ratio e^(μθ), divided by the rate of slip \[N s/m\], positive.
-    pub resistance: Number,
-}
+/// The rings at the key `through`.
+pub struct Rings;
 
-/// A device that takes webbing in.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Pretensioner {
-    /// The switch that fires the device: index into [`Model::switches`](crate::model::Model::switches).
-    pub fire: usize,
-    /// Time from firing until webbing is taken in \[s\], not negative.
-    pub delay: Option<Number>,
-    /// Length taken in against the time since then \[s\] → \[m\], beginning at (0, 0).
-    pub retract: ScaledCurve,
-}
+impl Kind for Rings {
+    type Written = NoKey;
+    type Kept = Vec<Ring>;
 
-/// The checked form of a belt.
-pub(crate) fn belt(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<Belt> {
-    let name = &written.belt;
-    let from = resolver.end(&written.from, at.key("from"));
-    let to = resolver.end(&written.to, at.key("to"));
-    let rings = rings(resolver, written, at);
-    if let (Some(from), Some(to)) = (&from, &to) {
-        check_bodies(resolver, name, [from, to], rings.as_deref(), at.key("to"));
+    fn keep(reader: &mut Reader<'_, '_, '_>, _: &'static str) -> Option<Vec<Ring>> {
+        let belt = name(reader);
+        let mut rings: Vec<Ring> = Vec::new();
+        let mut all = true;
+        let mut readers = reader.below_list("through");
+        while let Some(mut reader) = readers.next() {
+            let Some(ring) = Ring::read(&mut reader) else {
+                all = false;
+                continue;
+            };
+            let (problems, at) = (&reader.resolver.problems, reader.at.key("ring"));
+            if rings.iter().any(|other| other.name == ring.name) {
+                problems.add(at.problem(
+                    format!("belt {} has two rings {}", quoted(belt), quoted(&ring.name)),
+                    "give each ring of a belt another name",
+                ));
+            }
+            if ring.name.trim().is_empty() || ring.name.chars().any(char::is_control) {
+                problems.add(at.problem(
+                    "the name of a ring is empty or not one line",
+                    "give it a name: outputs and effects call it by that",
+                ));
+            }
+            rings.push(ring);
+        }
+        all.then_some(rings)
     }
-    let force = acting_tension(resolver, written, at);
-    let length = untensioned(resolver, written, at, force.as_ref());
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"));
-    let damping_stretch = resolver.fade(
-        (written.damping.as_deref(), damping.is_some()),
-        (
-            written.damping_stretch.as_deref(),
-            at.key("damping_stretch"),
-        ),
-        (LENGTH, DAMPING_STRETCH),
-    );
-    let hysteresis = resolver.hysteresis(
-        force.as_ref(),
-        Unloading {
-            curve: written.unloading.as_deref(),
-            slope: written.unloading_slope.as_deref(),
-            loading: ("force", true),
-            at,
-            expected: [PURE, FORCE, SLOPE],
-        },
-    );
-    let limiter = written
-        .limiter
-        .as_ref()
-        .map(|l| limiter(resolver, l, at.key("limiter"), force.as_ref()));
-    let reel = written.retractor.as_ref();
-    let retractor = reel.map(|r| retractor(resolver, r, at, force.as_ref()));
-    let film_spool = reel.and_then(|r| film_spool(resolver, &written.belt, r, at.key("retractor")));
-    let pretensioner = written
-        .pretensioner
-        .as_ref()
-        .and_then(|p| pretensioner(resolver, p, at.key("pretensioner")));
-    Some(Belt {
-        from: from?,
-        to: to?,
-        rings: rings?,
-        force: force?,
-        hysteresis,
-        damping,
-        damping_stretch,
-        length,
-        retractor: match retractor {
-            Some(retractor) => Some(retractor?),
-            None => None,
-        },
-        film_spool,
-        pretensioner,
-        limiter,
-    })
-}
 
-/// Reports a belt whose ends and rings are all on one body. `rings` is `None` if one of them is wrong.
-fn check_bodies(
-    resolver: &Resolver<'_>,
-    name: &str,
-    [from, to]: [&Attachment; 2],
-    rings: Option<&[Ring]>,
-    at: At<'_>,
-) {
-    let mut others = rings.into_iter().flatten();
-    if from.on != to.on || others.any(|ring| ring.on.on != from.on) {
-        return;
+    fn add_fields<'a>(kept: &'a mut Vec<Ring>, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        for (index, ring) in kept.iter_mut().enumerate() {
+            let (about, below) = (
+                format!(" of ring {}", ring.name),
+                format!("through[{index}]."),
+            );
+            ring.add_fields(names.within(&about, &below), to);
+        }
     }
-    let (message, help) = match rings.is_some_and(<[Ring]>::is_empty) {
-        true => (
-            format!("both ends of belt {} are on the same body", quoted(name)),
-            "a belt runs between two bodies; `frame` is the absolute frame",
-        ),
-        false => (
-            format!(
-                "the ends and all rings of belt {} are on the same body",
-                quoted(name)
-            ),
-            "a belt acts between two bodies: put an end or a ring on another; `frame` is the absolute frame",
-        ),
-    };
-    resolver.problems.add(at.problem(message, help));
+
+    fn add_bodies<'a>(kept: &'a mut Vec<Ring>, bodies: &mut Vec<&'a mut Body>) {
+        for ring in kept {
+            ring.add_bodies(bodies);
+        }
+    }
+
+    fn flatten(kept: &mut Vec<Ring>) {
+        kept.iter_mut().for_each(Declaration::flatten);
+    }
+
+    fn mirror(expander: &Expander<'_>, record: &mut Node, _: &str) {
+        expander.mirrored_list(record, "through");
+    }
 }
 
-/// The rings that the belt runs through; `None` if one of them is wrong.
-fn rings(resolver: &Resolver<'_>, written: &Written, at: At<'_>) -> Option<Vec<Ring>> {
-    let at = at.key("through");
-    let mut rings: Vec<Ring> = Vec::new();
-    let mut all = true;
-    for (index, ring) in written.through.iter().flatten().enumerate() {
-        let at = at.item(index);
-        let name = &ring.ring;
-        if rings.iter().any(|other| other.name == *name) {
-            resolver.problems.add(at.key("ring").problem(
-                format!(
-                    "belt {} has two rings {}",
-                    quoted(&written.belt),
-                    quoted(name)
-                ),
-                "give each ring of a belt another name",
+/// The name at the key `ring`.
+pub struct RingName;
+
+impl Kind for RingName {
+    type Written = NoKey;
+    type Kept = String;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, _: &'static str) -> Option<String> {
+        reader.written("ring")
+    }
+}
+
+/// Tension as a function of the relative elongation (L − L₀)/L₀ → \[N\].
+pub struct Tension;
+
+impl Kind for Tension {
+    type Written = Option<FunctionOf<Pure, Force>>;
+    type Kept = ScaledCurve;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<ScaledCurve> {
+        let before = reader.resolver.problems.count();
+        let curve = tension(reader);
+        if curve.is_none() && reader.resolver.problems.count() == before {
+            let (place, times) = match reader.has(key) {
+                true => {
+                    let place = reader.at.key(key);
+                    (place, place.node.get("times").is_some())
+                }
+                false => (reader.at.key("stiffness"), false),
+            };
+            let belt = name(reader);
+            reader.resolver.problems.add(place.problem(
+                match times {
+                    true => no_force(belt),
+                    false => format!("belt {} has no force at any elongation", quoted(belt)),
+                },
+                "give a curve that is not zero everywhere, or switch the belt off by `enabled: false`",
             ));
         }
-        if name.trim().is_empty() || name.chars().any(char::is_control) {
-            resolver.problems.add(at.key("ring").problem(
-                "the name of a ring is empty or not one line",
-                "give it a name: outputs and effects call it by that",
-            ));
-        }
-        let friction = resolver.coefficient(ring.friction.as_ref(), at.key("friction"));
-        let resistance = match &ring.resistance {
-            Some(given) => resolver.number(given, at.key("resistance")),
-            None => RESISTANCE.into(),
+        reader.loading = Loading {
+            key,
+            curve: curve.clone(),
         };
-        let position = resolver.vector(&ring.at, at.key("at"));
-        match resolver.body(&ring.on, at.key("on")) {
-            Some(on) => rings.push(Ring {
-                name: name.clone(),
-                on: Attachment { on, at: position },
-                friction,
-                resistance,
-            }),
-            None => all = false,
-        }
+        curve
     }
-    all.then_some(rings)
+
+    fn add_fields<'a>(kept: &'a mut ScaledCurve, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        let mut term = names.term(Rule::NotNegative);
+        term.keys.push("stiffness".into());
+        to.push(Field::Term(term, kept));
+    }
 }
 
-/// The curve of the film spool: tension of a locked reel beyond that of the spool, against the webbing that has come
-/// off it.
+/// The curve of tension against relative elongation; `None` if it is wrong, missing, or 0 everywhere.
+fn tension(reader: &mut Reader<'_, '_, '_>) -> Option<ScaledCurve> {
+    let force: Option<FunctionOf<Pure, Force>> = reader.written("force")?;
+    let stiffness: Option<WrittenNumber<Webbing>> = reader.written("stiffness")?;
+    if force.is_none() && stiffness.is_none() {
+        reader.resolver.problems.add(reader.at.problem(
+            format!("belt {} has no force", quoted(name(reader))),
+            "add `force: …`, a curve of the relative elongation, or `stiffness: …` for a straight one",
+        ));
+        return None;
+    }
+    if let (None, Some(stiffness)) = (&force, &stiffness)
+        && let Some(slope) = per_length(reader, stiffness)
+    {
+        return reader.resolver.line(reader.at.key("stiffness"), slope);
+    }
+    reader.resolver.elastic_in(
+        ("force", force.as_deref()),
+        stiffness.as_deref(),
+        reader.at,
+        [PURE, FORCE, FORCE_PER_ELONGATION],
+    )
+}
+
+/// A stiffness in newtons per metre, converted to force per relative elongation; `None` for a stiffness in newtons.
+fn per_length(reader: &Reader<'_, '_, '_>, stiffness: &Quantity) -> Option<Number> {
+    let (resolver, place) = (&reader.resolver, reader.at.key("stiffness"));
+    let before = resolver.problems.count();
+    let measured = resolver.measured(stiffness, place);
+    let Some((number, Measure::Known(dimension))) = measured else {
+        // 0 after a problem, so that the caller does not report it again
+        return (resolver.problems.count() > before).then_some(Number::ZERO);
+    };
+    if dimension != STIFFNESS.dimension {
+        return None;
+    }
+    let length: Option<WrittenNumber<Length>> = reader.written("length")?;
+    let Some(length) = length else {
+        resolver.problems.add(place.problem(
+            "a stiffness per length needs the untensioned length of the belt, which here follows from the scene",
+            "give `length` too, or the force per relative elongation: 50 N/mm of a belt of 0.5 m are 25 kN",
+        ));
+        return Some(Number::ZERO);
+    };
+    let length = resolver.number(&length, reader.at.key("length"));
+    Some(Number::product(number, length))
+}
+
+/// The curve of the film spool at the key `retractor.film_spool`: tension of a locked reel beyond that of the spool,
+/// against the webbing that has come off it.
+pub struct FilmSpool;
+
+impl Kind for FilmSpool {
+    type Written = NoKey;
+    type Kept = Option<ScaledCurve>;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<Self::Kept> {
+        let belt = name(reader);
+        let Some(reel) = reader.below("retractor") else {
+            return Some(None);
+        };
+        let written: Option<FunctionOf<Length, Force>> = reel.written(key)?;
+        let Some(written) = written else {
+            return Some(None);
+        };
+        Some(film_spool(reel.resolver, belt, &written, reel.at.key(key)))
+    }
+
+    fn add_fields<'a>(kept: &'a mut Self::Kept, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        let term = Term::new(names.name, "retractor.film_spool", Rule::Finite);
+        let term = term.needs(names.needs).only_as_written();
+        to.push(Field::Term(term, kept));
+    }
+}
+
 fn film_spool(
     resolver: &mut Resolver<'_>,
     belt: &str,
-    written: &WrittenRetractor,
-    at: At<'_>,
+    written: &FunctionOf<Length, Force>,
+    place: At<'_>,
 ) -> Option<ScaledCurve> {
-    let place = at.key("film_spool");
     let before = resolver.problems.count();
-    let film = resolver.function(written.film_spool.as_ref()?, place);
+    let film = resolver.function(written, place);
     // a curve that is 0 everywhere is none
     if film.is_none() && resolver.problems.count() > before {
         return None;
@@ -298,188 +291,141 @@ fn film_spool(
     film
 }
 
-/// The curve of tension against relative elongation. A curve that is 0 everywhere is reported.
-fn acting_tension(
-    resolver: &mut Resolver<'_>,
-    written: &Written,
-    at: At<'_>,
-) -> Option<ScaledCurve> {
-    let name = &written.belt;
-    let before = resolver.problems.count();
-    let force = tension(resolver, written, at);
-    if force.is_none() && resolver.problems.count() == before {
-        let (place, times) = match &written.force {
-            Some(_) => {
-                let place = at.key("force");
-                (place, place.node.get("times").is_some())
-            }
-            None => (at.key("stiffness"), false),
+/// A curve of what has been taken in that begins with nothing.
+pub struct FromZero;
+
+impl Condition<ScaledCurve> for FromZero {
+    fn check(kept: &ScaledCurve, resolver: &Resolver<'_>, at: At<'_>) {
+        let curve = resolver.curve_of(kept);
+        if curve.is_some_and(|(curve, _)| curve.points[0] != [0.0, 0.0]) {
+            resolver.problems.add(at.problem(
+                "a pretensioner begins with nothing at the time of its firing",
+                "begin the curve with [0, 0]; its abscissa is the time since the switch",
+            ));
+        }
+    }
+}
+
+/// The largest tension, at the key `limiter.force`. Where the tension would be larger, webbing is paid out for good.
+pub struct Limited;
+
+impl Kind for Limited {
+    type Written = Option<Limiter>;
+    type Kept = Option<Number>;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<Self::Kept> {
+        let written: Option<Limiter> = reader.written(key)?;
+        let place = reader.at.key(key).key("force");
+        Some(written.map(|limiter| reader.resolver.number(&limiter.force, place)))
+    }
+
+    fn add_fields<'a>(kept: &'a mut Self::Kept, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        let term = names.term(Rule::Positive).only_as_written();
+        to.push(Field::Term(term, kept));
+    }
+}
+
+/// The untensioned length, in the way in which it is written: at one of the keys `slack`, `pretension`, `length`.
+pub struct Untensioned;
+
+/// The keys of [`Untensioned`], and what each measures.
+const LENGTHS: [(&str, Expected); 3] =
+    [("slack", LENGTH), ("pretension", FORCE), ("length", LENGTH)];
+
+impl Kind for Untensioned {
+    type Written = NoKey;
+    type Kept = BeltLength;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, _: &'static str) -> Option<BeltLength> {
+        let mut given = LENGTHS.into_iter().filter(|(key, _)| reader.has(key));
+        let none = BeltLength::Slack(Number::ZERO);
+        let Some((key, expected)) = given.next() else {
+            return Some(none);
         };
-        resolver.problems.add(place.problem(
-            match times {
-                true => no_force(name),
-                false => format!("belt {} has no force at any elongation", quoted(name)),
-            },
-            "give a curve that is not zero everywhere, or switch the belt off by `enabled: false`",
-        ));
+        if let Some((second, _)) = given.next() {
+            reader.resolver.problems.add(reader.at.key(second).key_problem(
+                format!("the length of belt {} is given twice, by {key} and {second}", quoted(name(reader))),
+                "keep one of `slack`, `pretension`, `length`; without any the belt is just taut at the start",
+            ));
+            return Some(none);
+        }
+        let written: Quantity = reader.written(key)?;
+        let number = reader
+            .resolver
+            .number_in(&written, reader.at.key(key), expected);
+        Some(match key {
+            "length" => BeltLength::Given(number),
+            "slack" => BeltLength::Slack(number),
+            _ if number.is_zero() => none,
+            _ => BeltLength::Pretension(number),
+        })
     }
-    force
+
+    fn add_fields<'a>(kept: &'a mut BeltLength, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        let name = match kept {
+            BeltLength::Given(_) => "given length",
+            BeltLength::Slack(_) => "slack",
+            BeltLength::Pretension(_) => "pretension",
+        };
+        let mut term = Term::new(name, "length", Rule::NotNegative).needs(names.needs);
+        term.keys.extend(["slack", "pretension"].map(String::from));
+        to.push(Field::Term(term, kept));
+    }
 }
 
-/// The curve of tension against relative elongation; `None` if it is wrong, missing, or 0 everywhere.
-fn tension(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option<ScaledCurve> {
-    if written.force.is_none() && written.stiffness.is_none() {
-        resolver.problems.add(at.problem(
-            format!("belt {} has no force", quoted(&written.belt)),
-            "add `force: …`, a curve of the relative elongation, or `stiffness: …` for a straight one",
-        ));
-        return None;
-    }
-    if let (None, Some(stiffness)) = (&written.force, &written.stiffness)
-        && let Some(slope) = per_length(resolver, written, stiffness, at)
-    {
-        return resolver.line(at.key("stiffness"), slope);
-    }
-    resolver.elastic_in(
-        ("force", written.force.as_deref()),
-        written.stiffness.as_deref(),
-        at,
-        [PURE, FORCE, SLOPE],
-    )
-}
-
-/// A stiffness in newtons per metre, converted to force per relative elongation; `None` for a stiffness in newtons.
-fn per_length(
-    resolver: &Resolver<'_>,
-    written: &Written,
-    stiffness: &Quantity,
-    at: At<'_>,
-) -> Option<Number> {
-    let place = at.key("stiffness");
-    let before = resolver.problems.count();
-    let measured = resolver.measured(stiffness, place);
-    let Some((number, Measure::Known(dimension))) = measured else {
-        // 0 after a problem, so that the caller does not report it again
-        return (resolver.problems.count() > before).then_some(Number::ZERO);
-    };
-    if dimension != STIFFNESS.dimension {
-        return None;
-    }
-    let Some(length) = &written.length else {
-        resolver.problems.add(place.problem(
-            "a stiffness per length needs the untensioned length of the belt, which here follows from the scene",
-            "give `length` too, or the force per relative elongation: 50 N/mm of a belt of 0.5 m are 25 kN",
-        ));
-        return Some(Number::ZERO);
-    };
-    let length = resolver.number(length, at.key("length"));
-    Some(Number::product(number, length))
-}
-
-/// The largest tension.
-fn limiter(
-    resolver: &Resolver<'_>,
-    written: &WrittenLimiter,
-    at: At<'_>,
-    force: Option<&ScaledCurve>,
-) -> Number {
-    let place = at.key("force");
-    if let Some(force) = force {
-        check_invertible(resolver, force, "limiter", place);
-    }
-    resolver.number(&written.force, place)
-}
-
-/// The reel; `None` if its switch is wrong.
-fn retractor(
-    resolver: &Resolver<'_>,
-    written: &WrittenRetractor,
-    at: At<'_>,
-    force: Option<&ScaledCurve>,
-) -> Option<Retractor> {
-    for key in ["slack", "pretension", "length"] {
-        if at.node.get(key).is_some() {
-            resolver.problems.add(at.key(key).key_problem(
+/// Reports an untensioned length beside a retractor.
+pub(super) fn check_keys(reader: &Reader<'_, '_, '_>) {
+    for (key, _) in LENGTHS {
+        if reader.has("retractor") && reader.has(key) {
+            reader.resolver.problems.add(reader.at.key(key).key_problem(
                 "with a retractor the untensioned length follows from where it locks",
                 format!("remove `{key}`; the tension until it locks is its `spool`"),
             ));
         }
     }
-    let at = at.key("retractor");
-    let lock = resolver.switch_id(&written.lock, at.key("lock"));
-    let place = at.key("spool");
-    let spool = resolver.coefficient(written.spool.as_ref(), place);
-    let spool = spool.unwrap_or(Number::ZERO);
-    if let (Some(force), false) = (force, spool.is_zero()) {
-        check_invertible(resolver, force, "retractor", place);
-    }
-    Some(Retractor { lock: lock?, spool })
 }
 
-/// The pretensioner; `None` if its switch is wrong, or it takes nothing in.
-fn pretensioner(
-    resolver: &mut Resolver<'_>,
-    written: &WrittenPretensioner,
-    at: At<'_>,
-) -> Option<Pretensioner> {
-    let fire = resolver.switch_id(&written.fire, at.key("fire"));
-    let place = at.key("retract");
-    let retract = resolver.function(&written.retract, place)?;
-    let first = resolver
-        .curve_of(&retract)
-        .map(|(curve, _)| curve.points[0]);
-    if first.is_some_and(|point| point != [0.0, 0.0]) {
-        resolver.problems.add(place.problem(
-            "a pretensioner begins with nothing at the time of its firing",
-            "begin the curve with [0, 0]; its abscissa is the time since the switch",
-        ));
+/// Reports a belt whose ends and rings are all on one body.
+pub(super) fn check_bodies(reader: &Reader<'_, '_, '_>, name: &str, belt: &Belt) {
+    let mut others = belt.points().map(|point| point.on);
+    if others.any(|on| on != belt.from.on) {
+        return;
     }
-    let delay = resolver.coefficient(written.delay.as_ref(), at.key("delay"));
-    Some(Pretensioner {
-        fire: fire?,
-        delay,
-        retract,
-    })
-}
-
-/// The untensioned length, in the way in which it is written.
-fn untensioned(
-    resolver: &Resolver<'_>,
-    written: &Written,
-    at: At<'_>,
-    force: Option<&ScaledCurve>,
-) -> BeltLength {
-    let given: Vec<(&str, &Quantity)> = [
-        ("slack", written.slack.as_deref()),
-        ("pretension", written.pretension.as_deref()),
-        ("length", written.length.as_deref()),
-    ]
-    .into_iter()
-    .filter_map(|(key, quantity)| Some((key, quantity?)))
-    .collect();
-    let none = BeltLength::Slack(Number::ZERO);
-    let &[(key, quantity)] = given.as_slice() else {
-        if let [_, (second, _), ..] = given[..] {
-            resolver.problems.add(at.key(second).key_problem(
-                format!("the length of belt {} is given twice, by {} and {second}", quoted(&written.belt), given[0].0),
-                "keep one of `slack`, `pretension`, `length`; without any the belt is just taut at the start",
-            ));
-        }
-        return none;
+    let (message, help) = match belt.rings.is_empty() {
+        true => (
+            format!("both ends of belt {} are on the same body", quoted(name)),
+            "a belt runs between two bodies; `frame` is the absolute frame",
+        ),
+        false => (
+            format!(
+                "the ends and all rings of belt {} are on the same body",
+                quoted(name)
+            ),
+            "a belt acts between two bodies: put an end or a ring on another; `frame` is the absolute frame",
+        ),
     };
-    let place = at.key(key);
-    let expected = if key == "pretension" { FORCE } else { LENGTH };
-    let number = resolver.number_in(quantity, place, expected);
-    match key {
-        "length" => BeltLength::Given(number),
-        "slack" => BeltLength::Slack(number),
-        _ if number.is_zero() => none,
-        _ => {
-            if let Some(force) = force {
-                check_invertible(resolver, force, "pretension", place);
-            }
-            BeltLength::Pretension(number)
-        }
+    reader
+        .resolver
+        .problems
+        .add(reader.at.key("to").problem(message, help));
+}
+
+/// Reports a curve that does not rise all the way where a tension must have one elongation.
+pub(super) fn check_tensions(reader: &Reader<'_, '_, '_>, belt: &Belt) {
+    let check =
+        |what, path| check_invertible(reader.resolver, &belt.force, what, reader.at.path(path));
+    if belt.limiter.is_some() {
+        check("limiter", "limiter.force");
+    }
+    if belt
+        .retractor
+        .as_ref()
+        .is_some_and(|reel| !reel.spool.is_zero())
+    {
+        check("retractor", "retractor.spool");
+    }
+    if matches!(belt.length, BeltLength::Pretension(_)) {
+        check("pretension", "pretension");
     }
 }
 

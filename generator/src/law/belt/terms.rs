@@ -1,80 +1,15 @@
 //! The terms of a belt: its curves, its untensioned length, its devices.
 
-use super::check::{Belt, BeltLength, Pretensioner, Retractor, Ring};
+use super::check::{Belt, BeltLength};
+use crate::model::declared::declared_terms;
 use crate::model::law::Terms;
-use crate::model::part::{Field, Fresh, Part, Term, as_written, attachment};
+use crate::model::part::{Fresh, Part};
 use crate::model::requirement::{Curves, List};
 use crate::model::rule::{Rule, Ruled};
-use crate::model::{Body, Curve, Dimension, Extrapolate, Number, ScaledCurve};
+use crate::model::{Curve, Dimension, Extrapolate, Number};
 
 impl Terms for Belt {
-    fn add_fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
-        let Belt {
-            from,
-            to,
-            rings,
-            force,
-            hysteresis,
-            damping,
-            damping_stretch,
-            length,
-            retractor,
-            film_spool,
-            pretensioner,
-            limiter,
-        } = self;
-        attachment(from, "from.at", fields);
-        for (index, ring) in rings.iter_mut().enumerate() {
-            let Ring {
-                name,
-                on,
-                friction,
-                resistance,
-            } = ring;
-            let key = |key: &str| format!("through[{index}].{key}");
-            attachment(on, &key("at"), fields);
-            let slips = Field::Number(key("resistance"), Rule::Positive, resistance);
-            fields.push(slips);
-            let rubs = Term::new(
-                format!("friction of ring {name}"),
-                key("friction"),
-                Rule::NotNegative,
-            );
-            fields.push(Field::Term(rubs.needs("it has no elastic force"), friction));
-        }
-        attachment(to, "to.at", fields);
-        let name = match length {
-            BeltLength::Given(_) => "given length",
-            BeltLength::Slack(_) => "slack",
-            BeltLength::Pretension(_) => "pretension",
-        };
-        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        let mut elastics = term("elastic", "force");
-        elastics.keys.push("stiffness".into());
-        fields.push(Field::Term(elastics, force));
-        let mut unloading = term("hysteresis", "unloading").needs("it has no elastic force");
-        unloading.keys.push("unloading_slope".into());
-        fields.push(Field::Term(unloading, hysteresis));
-        fields.push(Field::Term(term("damping", "damping"), damping));
-        let fade = term("damping fades in", "damping_stretch").needs("there is no damping");
-        fields.push(Field::Term(fade.only_as_written(), damping_stretch));
-        let needs = "it has no elastic force";
-        let device = |name: &str, rule| Term::new(name, name, rule).needs(needs).only_as_written();
-        fields.push(Field::Term(device("retractor", Rule::Finite), retractor));
-        let film = Term::new("film spool", "retractor.film_spool", Rule::Finite);
-        let film = film.needs("there is no retractor").only_as_written();
-        fields.push(Field::Term(film, film_spool));
-        fields.push(Field::Term(
-            device("pretensioner", Rule::Finite),
-            pretensioner,
-        ));
-        fields.push(Field::Term(device("limiter", Rule::Positive), limiter));
-        let mut untensioned = term(name, "length").needs("it has no elastic force");
-        untensioned
-            .keys
-            .extend(["slack", "pretension"].map(String::from));
-        fields.push(Field::Term(untensioned, length));
-    }
+    declared_terms!(flatten);
 
     fn settle_terms(&mut self) {
         // Without an elastic force, no length gives the pretension.
@@ -140,22 +75,6 @@ impl Terms for Belt {
             }
         }
     }
-
-    fn bodies_mut(&mut self) -> Vec<&mut Body> {
-        self.points_mut().map(|point| &mut point.on).collect()
-    }
-
-    fn switches_mut(&mut self) -> Vec<&mut usize> {
-        let lock = self.retractor.iter_mut().map(|r| &mut r.lock);
-        let fire = self.pretensioner.iter_mut().map(|p| &mut p.fire);
-        lock.chain(fire).collect()
-    }
-
-    fn flatten(&mut self) -> bool {
-        self.points_mut()
-            .for_each(|point| point.at[1] = Number::ZERO);
-        true
-    }
 }
 
 /// The untensioned length, as a part that may be left out: then the belt is just taut at the start.
@@ -186,11 +105,6 @@ impl Part for BeltLength {
             }
         }]
     }
-}
-
-as_written! {
-    Retractor { spool: NotNegative } {} [] - lock;
-    Pretensioner {} { delay: NotNegative } [retract] - fire;
 }
 
 impl List<'_> {

@@ -24,7 +24,7 @@
 //! which θ₁ or θ₃ of an elastic law, or φ, passes through 180°, where the torque jumps, reports that too. In the plane
 //! there are d₁, d₃ and θ₂, and nothing is singular.
 
-use super::check::{Bushing, Direction, Mount};
+use super::keys::{Bushing, Direction, Mount};
 use super::outputs::BushingMeasures;
 use crate::equations::NO_BEARING;
 use crate::expression::Expr;

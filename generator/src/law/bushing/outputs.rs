@@ -1,6 +1,6 @@
 //! Outputs of a bushing.
 
-use super::check::{Bushing, Direction};
+use super::keys::{Bushing, Direction};
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;

@@ -1,51 +1,16 @@
-//! Contacts of an ellipsoid with a plane or another ellipsoid.
+//! What a contact is made of, and which surfaces may meet.
 
-use super::keys::Contact as Written;
-use crate::description::measure::{FORCE, FRICTION, LENGTH, SPEED, STIFFNESS};
-use crate::description::place::At;
+pub use super::keys::Contact;
+use crate::description::expand::{Expander, Node};
+use crate::description::short::ByName;
+use crate::description::surface::{Ellipsoid as WrittenEllipsoid, Plane as WrittenPlane};
 use crate::diagnostic::quoted;
-use crate::model::resolve::Resolver;
-use crate::model::resolve::hysteresis::Unloading;
-use crate::model::resolve::surface::{EDGE_WIDTH, degree, ellipsoid, plane};
-use crate::model::{
-    Attachment, Bristle, EdgeRule, Ellipsoid, Extent, Friction, Hysteresis, Number, Plane,
-    ScaledCurve,
-};
+use crate::model::declared::{Kind, Names, NoKey, Reader};
+use crate::model::part::{Field, Term, attachment, finite};
+use crate::model::resolve::surface::{self, EDGE_WIDTH};
+use crate::model::rule::Rule;
+use crate::model::{Attachment, Body, EdgeRule, Ellipsoid, Extent, Number, Plane};
 use serde::Serialize;
-
-/// Sliding speed from which on contact friction has its full size, if the user gives none \[m/s\].
-const FRICTION_SPEED: f64 = 0.01;
-
-/// Penetration from which on damping has its full size, if the user gives none \[m\].
-const DAMPING_DEPTH: f64 = 1e-3;
-
-/// Contact of an ellipsoid with a plane or another ellipsoid.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Contact {
-    /// Centre of the ellipsoid.
-    pub ellipsoid: Attachment,
-    /// Semi-axes along the ellipsoid's own axes \[m\], positive. In the plane the first and third (x, z) are used.
-    pub semi_axes: [Number; 3],
-    /// Bryant angles of the ellipsoid's axes relative to the body's frame \[rad\]. In the plane only the second is
-    /// used.
-    pub axes: [Number; 3],
-    /// Exponent n of the surface Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, larger numbers are rounded boxes.
-    pub degree: u32,
-    /// The plane or ellipsoid that the ellipsoid meets, on another body.
-    pub against: Against,
-    /// Elastic force as a function of the perpendicular penetration: \[m\] → \[N\].
-    pub elastic: Option<ScaledCurve>,
-    /// A different curve for unloading, against the penetration \[m\].
-    pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient on the penetration rate \[N s/m\]; the sum of elastic and viscous force is never negative.
-    pub damping: Option<Number>,
-    /// Penetration up to which damping grows from 0 to its full size \[m\]; `None` for full damping at once.
-    pub damping_depth: Option<Number>,
-    /// Coulomb friction on the normal force.
-    pub friction: Option<Friction>,
-    /// The bristle by which friction holds; without one, friction only resists motion.
-    pub bristle: Option<Bristle>,
-}
 
 /// The surface that an ellipsoid meets.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -80,184 +45,183 @@ impl Against {
             Against::Ellipsoid(_) => None,
         }
     }
+
+    /// Of a plane whose force fades at its edges: the half-lengths, and the width over which it fades.
+    fn fading_edge(&mut self) -> Option<(&[Number], &mut Number)> {
+        match self {
+            Against::Plane(Plane {
+                extent:
+                    Some(Extent {
+                        half_lengths,
+                        rule: EdgeRule::Fade(width),
+                    }),
+                ..
+            }) => Some((half_lengths, width)),
+            _ => None,
+        }
+    }
 }
 
-/// The checked form of a contact.
-pub(crate) fn contact(
-    resolver: &mut Resolver<'_>,
-    written: &Written,
-    at: At<'_>,
-) -> Option<Contact> {
-    let round = at.key("ellipsoid");
-    let ellipsoid = ellipsoid(resolver, &written.ellipsoid, round);
-    let degree = degree(
-        resolver,
-        written.ellipsoid.degree.as_ref(),
-        round.key("degree"),
-    );
-    let (mut against, other) = against(resolver, written, degree, at);
-    if let (Some(first), Some(second)) = (&ellipsoid, &against) {
-        check_bodies(resolver, &written.contact, first, second, other);
-    }
-    let elastic = resolver.elastic(
-        ("elastic", written.elastic.as_ref()),
-        written.stiffness.as_ref(),
-        at,
-    );
-    let hysteresis = resolver.hysteresis(
-        elastic.as_ref(),
-        Unloading {
-            curve: written.unloading.as_deref(),
-            slope: written.unloading_slope.as_deref(),
-            loading: (
-                "elastic",
-                written.elastic.is_some() || written.stiffness.is_some(),
-            ),
+/// The exponent of the ellipsoid at the key `ellipsoid`.
+pub struct Degree;
+
+impl Kind for Degree {
+    type Written = NoKey;
+    type Kept = u32;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, _: &'static str) -> Option<u32> {
+        let written: ByName<WrittenEllipsoid> = reader.written("ellipsoid")?;
+        let at = reader.at.key("ellipsoid").key("degree");
+        Some(surface::degree(
+            reader.resolver,
+            written.degree.as_ref(),
             at,
-            expected: [LENGTH, FORCE, STIFFNESS],
-        },
-    );
-    let damping = resolver.coefficient(written.damping.as_ref(), at.key("damping"));
-    let damping_depth = resolver.fade(
-        (written.damping.as_deref(), damping.is_some()),
-        (written.damping_depth.as_deref(), at.key("damping_depth")),
-        (LENGTH, DAMPING_DEPTH),
-    );
-    let limit = written.friction.as_deref();
-    let friction = resolver.friction(
-        limit,
-        written.friction_speed.as_deref(),
-        at,
-        (FRICTION, SPEED, FRICTION_SPEED),
-    );
-    let displacement = written.friction_displacement.as_deref();
-    let bristle = resolver.bristle((limit, friction.is_some()), displacement, at, LENGTH);
-    if let (Some(first), Some(Against::Plane(flat)), Some(edge)) =
-        (&ellipsoid, &mut against, &written.plane)
-        && edge.edge.as_ref().is_none_or(|edge| edge.width.is_none())
-        && let Some(extent) = &mut flat.extent
-    {
-        fade_over_depth(resolver, extent, &first.semi_axes, elastic.as_ref());
+        ))
     }
-    check_fading_edge(
-        resolver,
-        against.as_ref(),
-        hysteresis.as_ref(),
-        degree,
-        at.key("plane").key("extent"),
-    );
-    let Ellipsoid {
-        center,
-        semi_axes,
-        axes,
-    } = ellipsoid?;
-    Some(Contact {
-        ellipsoid: center,
-        semi_axes,
-        axes,
-        degree,
-        against: against?,
-        elastic,
-        hysteresis,
-        damping,
-        damping_depth,
-        friction,
-        bristle,
-    })
 }
 
-/// The surface that an ellipsoid of degree `of_first` meets, and the place where it is written.
-fn against<'w>(
-    resolver: &Resolver<'_>,
-    written: &Written,
-    of_first: u32,
-    at: At<'w>,
-) -> (Option<Against>, At<'w>) {
-    match (&written.plane, &written.with) {
-        (Some(written), None) => {
-            let place = at.key("plane");
-            (plane(resolver, written, place).map(Against::Plane), place)
-        }
-        (None, Some(with)) => {
-            let place = at.key("with");
-            let of_second = degree(resolver, with.degree.as_ref(), place.key("degree"));
-            for (degree, place) in [(of_first, at.key("ellipsoid")), (of_second, place)] {
-                if degree > 2 {
-                    resolver.problems.add(place.key("degree").problem(
-                        "ellipsoids of higher degree meet planes only",
-                        "leave `degree` out, or write `plane` instead of `with`",
-                    ));
-                }
+/// What the ellipsoid meets: the keys `plane` and `with`, of which one is written.
+pub struct Meets;
+
+impl Kind for Meets {
+    type Written = NoKey;
+    type Kept = Against;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, _: &'static str) -> Option<Against> {
+        let plane: Option<ByName<WrittenPlane>> = reader.written("plane")?;
+        let with: Option<ByName<WrittenEllipsoid>> = reader.written("with")?;
+        match (plane, with) {
+            (Some(plane), None) => {
+                let place = reader.at.key("plane");
+                surface::plane(reader.resolver, &plane, place).map(Against::Plane)
             }
-            let second = ellipsoid(resolver, with, place);
-            (second.map(Against::Ellipsoid), place)
+            (None, Some(with)) => {
+                let place = reader.at.key("with");
+                let of_first = Degree::keep(reader, "degree")?;
+                let of_second =
+                    surface::degree(reader.resolver, with.degree.as_ref(), place.key("degree"));
+                for (degree, place) in [(of_first, reader.at.key("ellipsoid")), (of_second, place)]
+                {
+                    if degree > 2 {
+                        reader.resolver.problems.add(place.key("degree").problem(
+                            "ellipsoids of higher degree meet planes only",
+                            "leave `degree` out, or write `plane` instead of `with`",
+                        ));
+                    }
+                }
+                surface::ellipsoid(reader.resolver, &with, place).map(Against::Ellipsoid)
+            }
+            // reported by `check_surfaces`
+            _ => None,
         }
-        (Some(_), Some(_)) => {
-            resolver.problems.add(at.key("with").key_problem(
-                "the contact is with a plane and with an ellipsoid",
-                "write two contacts, one with `plane` and one with `with`",
-            ));
-            (None, at)
+    }
+
+    fn add_fields<'a>(kept: &'a mut Against, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        match kept {
+            Against::Plane(Plane {
+                at,
+                normal,
+                tangent,
+                extent,
+            }) => {
+                attachment(at, "plane.at", to);
+                finite(normal, "plane.normal", to);
+                // 0 where nothing depends on it
+                if !tangent.iter().all(Number::is_zero) {
+                    finite(tangent, "plane.along", to);
+                }
+                let ends = Term::new("edge", "plane.extent", Rule::NotNegative);
+                to.push(Field::Term(ends.needs("nothing presses"), extent));
+            }
+            Against::Ellipsoid(second) => {
+                Ellipsoid::add_fields(second, &names.of("with", "", ""), to);
+            }
         }
-        (None, None) => {
-            resolver.problems.add(at.key("contact").problem(
-                format!(
-                    "the ellipsoid of contact {} meets nothing",
-                    quoted(&written.contact)
-                ),
-                "add `plane: …`, or `with: …` for another ellipsoid",
-            ));
-            (None, at)
+    }
+
+    fn add_bodies<'a>(kept: &'a mut Against, bodies: &mut Vec<&'a mut Body>) {
+        bodies.push(&mut kept.place_mut().on);
+    }
+
+    fn flatten(kept: &mut Against) {
+        match kept {
+            Against::Plane(plane) => {
+                plane.at.at[1] = Number::ZERO;
+                if let Some(extent) = &mut plane.extent {
+                    // of the two half-lengths, keeps the one that is seen in the plane
+                    let away = plane.tangent[1].constant().is_some_and(|y| y.abs() > 0.5);
+                    extent.half_lengths.remove(usize::from(!away));
+                }
+                plane.normal[1] = Number::ZERO;
+                plane.tangent = [Number::ZERO; 3];
+            }
+            Against::Ellipsoid(second) => Ellipsoid::flatten(second),
+        }
+    }
+
+    fn mirror(expander: &Expander<'_>, record: &mut Node, _: &str) {
+        for key in ["plane", "with"] {
+            record.change(key, |surface| expander.mirrored_by_name(surface));
         }
     }
 }
 
-/// Reports a contact of two surfaces on the same body; the second is written at `place`.
-fn check_bodies(
-    resolver: &Resolver<'_>,
-    name: &str,
-    first: &Ellipsoid,
-    second: &Against,
-    place: At<'_>,
-) {
-    if first.center.on != second.place().on {
+/// Reports a contact with no surface or with two.
+pub(super) fn check_surfaces(name: &str, reader: &Reader<'_, '_, '_>) {
+    let problem = match (reader.has("plane"), reader.has("with")) {
+        (true, true) => reader.at.key("with").key_problem(
+            "the contact is with a plane and with an ellipsoid",
+            "write two contacts, one with `plane` and one with `with`",
+        ),
+        (false, false) => reader.at.key("contact").problem(
+            format!("the ellipsoid of contact {} meets nothing", quoted(name)),
+            "add `plane: …`, or `with: …` for another ellipsoid",
+        ),
+        _ => return,
+    };
+    reader.resolver.problems.add(problem);
+}
+
+/// Reports a contact of two surfaces on the same body.
+pub(super) fn check_bodies(reader: &Reader<'_, '_, '_>, name: &str, contact: &Contact) {
+    if contact.ellipsoid.center.on != contact.against.place().on {
         return;
     }
-    let both = match second {
-        Against::Plane(_) => "the ellipsoid and the plane",
-        Against::Ellipsoid(_) => "both ellipsoids",
+    let (both, key) = match contact.against {
+        Against::Plane(_) => ("the ellipsoid and the plane", "plane"),
+        Against::Ellipsoid(_) => ("both ellipsoids", "with"),
     };
-    resolver.problems.add(place.key("on").problem(
-        format!("{both} of contact {} are on the same body", quoted(name)),
-        "put them on two bodies; `frame` is the absolute frame",
-    ));
+    reader
+        .resolver
+        .problems
+        .add(reader.at.key(key).key("on").problem(
+            format!("{both} of contact {} are on the same body", quoted(name)),
+            "put them on two bodies; `frame` is the absolute frame",
+        ));
 }
 
-/// Sets the width of a fading edge for which the user gives none to the penetration that is to be expected, but to no
+/// Sets the width of a fading edge, if the user gives none, to the penetration that is to be expected, but to no
 /// less than [`EDGE_WIDTH`] and no more than the half-lengths. This penetration is the last point of the elastic curve,
 /// or the smallest semi-axis of the ellipsoid if that is less. The push of the edge, E S'/width with S' ≤ 3/2, is then
 /// at most 3/4 of the force f of the surface up to this penetration δ, if the curve of f does not bend down: its energy
 /// E is at most f δ/2.
-fn fade_over_depth(
-    resolver: &Resolver<'_>,
-    extent: &mut Extent,
-    semi_axes: &[Number; 3],
-    elastic: Option<&ScaledCurve>,
-) {
-    let EdgeRule::Fade(width) = &mut extent.rule else {
+pub(super) fn fade_over_depth(reader: &Reader<'_, '_, '_>, contact: &mut Contact) {
+    let plane = reader.at.node.get("plane");
+    let edge = plane.and_then(|plane| plane.get("edge"));
+    let given = edge.is_some_and(|edge| edge.get("width").is_some());
+    let Some((half_lengths, width)) = contact.against.fading_edge().filter(|_| !given) else {
         return;
     };
-    let [x, y, z] = semi_axes.clone();
+    // without an elastic force no energy is stored, and the edge does not push
+    let Some(elastic) = &contact.elastic else {
+        return;
+    };
+    let [x, y, z] = contact.ellipsoid.semi_axes.clone();
     let mut depth = Number::smaller(x, z);
-    if !resolver.planar {
+    if !reader.resolver.planar {
         depth = Number::smaller(depth, y);
     }
-    let Some(elastic) = elastic else {
-        // without an elastic force no energy is stored, and the edge does not push
-        return;
-    };
-    let curve = resolver.curves.get(elastic.curve).and_then(Option::as_ref);
-    if let Some(curve) = curve.map(|measured| &measured.curve)
+    if let Some((curve, _)) = reader.resolver.curve_of(elastic)
         && let (false, Some([last, _])) = (curve.is_proportional(), curve.points.last())
     {
         let last = Number::product(elastic.stretch.clone(), (*last).into());
@@ -265,33 +229,26 @@ fn fade_over_depth(
     }
     let negative = |number| Number::negative(number);
     let least = Number::smaller(negative(depth), negative(EDGE_WIDTH.into()));
-    let halves = extent.half_lengths.iter().cloned();
+    let halves = half_lengths.iter().cloned();
     *width = halves.fold(negative(least), Number::smaller);
 }
 
 /// Reports a fading edge where the force has no energy as a function of the penetration, or its point of application
 /// leaps.
-fn check_fading_edge(
-    resolver: &Resolver<'_>,
-    against: Option<&Against>,
-    hysteresis: Option<&Hysteresis>,
-    degree: u32,
-    place: At<'_>,
-) {
-    let extent = against
-        .and_then(Against::plane)
-        .and_then(|plane| plane.extent.as_ref());
-    if !extent.is_some_and(|extent| matches!(extent.rule, EdgeRule::Fade(_))) {
-        return;
-    }
-    if hysteresis.is_some_and(|law| law.unloading.is_some()) {
-        resolver.problems.add(place.key_problem(
+pub(super) fn check_fading_edge(reader: &Reader<'_, '_, '_>, contact: &Contact) {
+    let plane = contact.against.plane();
+    let extent = plane.and_then(|plane| plane.extent.as_ref());
+    let fades = extent.is_some_and(|extent| matches!(extent.rule, EdgeRule::Fade(_)));
+    let place = reader.at.key("plane").key("extent");
+    let law = contact.hysteresis.as_ref();
+    if fades && law.is_some_and(|law| law.unloading.is_some()) {
+        reader.resolver.problems.add(place.key_problem(
             "an edge that fades must know the energy that unloading gives back, which of a curve `unloading` it does not",
             "write `edge: { rule: cut }`, or `unloading_slope` alone",
         ));
     }
-    if degree > 2 {
-        resolver.problems.add(place.key_problem(
+    if fades && contact.degree > 2 {
+        reader.resolver.problems.add(place.key_problem(
             "the deepest point of an ellipsoid of higher degree leaps from corner to corner, and an edge cannot fade under it",
             "write `edge: { rule: cut }`, or leave `degree` out",
         ));

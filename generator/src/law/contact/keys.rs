@@ -1,76 +1,105 @@
-//! The keys of a contact, and of the surfaces that meet in it.
+//! The keys of a contact.
 
+use super::check::{self, Against, Degree, Meets};
 use crate::description::curve::FunctionOf;
-use crate::description::expand::{Expander, Node};
 use crate::description::force::Acting;
-use crate::description::measure::{Coefficient, Force, Length, LinearDamping, Speed, Stiffness};
-use crate::description::place::At;
+use crate::description::measure::{
+    Coefficient as FrictionCoefficient, Force, Length, LinearDamping, NotNegative, Positive, Speed,
+    Stiffness,
+};
 use crate::description::quantity::Number;
-use crate::description::shape::{Flat, Key, record};
+use crate::description::shape::{Flat, Key};
 use crate::description::short::ByName;
-use crate::description::surface::{Edge, Ellipsoid, Plane};
-use crate::model::law::Law;
-use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Keys, record};
+use crate::description::surface::{Edge, Ellipsoid as WrittenEllipsoid, Plane};
+use crate::model::Ellipsoid;
+use crate::model::declared::{
+    Coefficient, DeclaredLaw, Elastic, Fade, Holding, Reader, Rubbing, Unloading, Written, declare,
+};
+use crate::model::resolve::NOWHERE;
+use crate::model::resolve::law::record;
 
-record! {
+/// The keys of a contact.
+pub type ContactKeys = Written<Contact>;
+
+declare! {
     /// Contact of an ellipsoid with a plane or another ellipsoid.
-    Contact as "a contact" {
+    Contact as "a contact" only written {
         /// name, unique among the contacts
         contact: String,
         /// when it acts
         acting: Flat<Acting>,
         /// `true` adds its [mirror image](#a-mirror)
         mirror: Option<bool> = "`false`",
+    } and kept {
         /// the [ellipsoid](#an-ellipsoid), or [names](#named-surfaces) of such
-        ellipsoid: ByName<Ellipsoid>,
-        /// the [plane](#a-plane) that it meets, on another body, or names of such
-        plane: Option<ByName<Plane>>,
-        /// instead of `plane`: the other [ellipsoid](#an-ellipsoid), on another body, or names of such; one of the two
-        /// keys must be given
-        with: Option<ByName<Ellipsoid>>,
+        ellipsoid: Ellipsoid,
+        /// Exponent n of the surface Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, larger numbers are rounded boxes.
+        degree: Degree,
+        /// The plane or ellipsoid that the ellipsoid meets, on another body.
+        against: Meets {
+            /// the [plane](#a-plane) that it meets, on another body, or names of such
+            plane: Option<ByName<Plane>>,
+            /// instead of `plane`: the other [ellipsoid](#an-ellipsoid), on another body, or names of such; one of the
+            /// two keys must be given
+            with: Option<ByName<WrittenEllipsoid>>,
+        },
         /// curve of the perpendicular penetration
-        elastic: Option<FunctionOf<Length, Force>>,
-        /// instead of `elastic`: force per penetration, [a straight curve](#a-stiffness)
-        stiffness: Option<Number<Stiffness>>,
-        /// curve of the force during unloading, nowhere above `elastic`; see [hysteresis](#hysteresis)
-        unloading: Option<FunctionOf<Length, Force>>,
-        /// slope of the line between the two curves
-        unloading_slope: Option<Number<Stiffness>> = "ten times the steepest slope of `elastic`",
+        elastic: Elastic<Length, Force, Stiffness> {
+            /// instead of `elastic`: force per penetration, [a straight curve](#a-stiffness)
+            stiffness: Option<Number<NotNegative<Stiffness>>>,
+        },
+        /// A different curve for unloading, against the penetration.
+        hysteresis: Unloading<Length, Force, Stiffness> {
+            /// curve of the force during unloading, nowhere above `elastic`; see [hysteresis](#hysteresis)
+            unloading: Option<FunctionOf<Length, Force>>,
+            /// slope of the line between the two curves
+            unloading_slope: Option<Number<Positive<Stiffness>>> = "ten times the steepest slope of `elastic`",
+        } as "hysteresis" needs "there is no elastic force",
         /// viscous coefficient on the rate of penetration
-        damping: Option<Number<LinearDamping>> = "0",
+        damping: Coefficient<NotNegative<LinearDamping>> = "0",
         /// damping grows in proportion to the penetration up to this one, so that no force jumps at touch; 0: it acts
         /// in full at once
-        damping_depth: Option<Number<Length>> = "1 mm",
+        damping_depth: Fade<Length> as "damping fades in" needs "there is no damping" = "1 mm",
         /// coefficient of Coulomb friction on the normal force
-        friction: Option<Number<Coefficient>> = "0",
-        /// friction grows in proportion to the sliding speed up to this one, and is constant beyond
-        friction_speed: Option<Number<Speed>> = "0.01",
-        /// friction that holds: it grows with the displacement up to this one; see [friction](#friction)
-        friction_displacement: Option<Number<Length>>,
+        friction: Rubbing<FrictionCoefficient, Speed> {
+            /// friction grows in proportion to the sliding speed up to this one, and is constant beyond
+            friction_speed: Option<Number<Positive<Speed>>> = "0.01",
+        } as "friction" needs "nothing presses" = "0",
+        /// The bristle by which friction holds; without one, friction only resists motion.
+        bristle: Holding<Length> {
+            /// friction that holds: it grows with the displacement up to this one; see [friction](#friction)
+            friction_displacement: Option<Number<Positive<Length>>>,
+        } as "friction holds" needs "there is no friction",
     }
 }
 
-impl Keys for Contact {
+impl DeclaredLaw for Contact {
     const KEY: &'static str = "contact";
     const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["ellipsoid", "with"]);
+    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] =
+        &[record::<WrittenEllipsoid>, record::<Plane>, record::<Edge>];
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
-        super::check::contact(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
+    fn check_keys(name: &str, reader: &Reader<'_, '_, '_>) {
+        check::check_surfaces(name, reader);
     }
 
-    fn records() -> Vec<(&'static str, Vec<Key>)> {
-        vec![
-            record::<Contact>(),
-            record::<Ellipsoid>(),
-            record::<Plane>(),
-            record::<Edge>(),
-        ]
-    }
-
-    fn mirror(expander: &Expander<'_>, image: &mut Node) {
-        for key in ["ellipsoid", "plane", "with"] {
-            image.change(key, |surface| expander.mirrored_by_name(surface));
+    fn check(mut self, name: &str, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
+        if self.damping.is_none() {
+            self.damping_depth = None;
         }
+        if self.friction.is_none() {
+            self.bristle = None;
+        }
+        check::check_bodies(reader, name, &self);
+        check::fade_over_depth(reader, &mut self);
+        check::check_fading_edge(reader, &self);
+        if let Against::Plane(plane) = &mut self.against
+            && self.bristle.is_none()
+            && plane.extent.is_none()
+        {
+            // only edges and bristles depend on the direction of the tangent
+            plane.tangent = NOWHERE;
+        }
+        Some(self)
     }
 }

@@ -82,7 +82,7 @@ impl<'g> Pair<'g> {
         motion: &Motion<'g>,
         contact: &Contact,
     ) -> Self {
-        let places = [&contact.ellipsoid, contact.against.place()];
+        let places = [&contact.ellipsoid.center, contact.against.place()];
         Pair {
             graph,
             dimension,
@@ -130,10 +130,8 @@ impl<'g> Pair<'g> {
     }
 
     fn sizes(&self) -> Sizes<'g> {
-        let Contact {
-            semi_axes, degree, ..
-        } = &self.contact;
-        Sizes::of(self.graph, self.dimension, semi_axes, *degree)
+        let semi_axes = &self.contact.ellipsoid.semi_axes;
+        Sizes::of(self.graph, self.dimension, semi_axes, self.contact.degree)
     }
 
     /// The velocity of the ellipsoid's centre and its angular velocity, relative to the second body.

@@ -57,7 +57,7 @@ impl Outputs for Contact {
         let (what, unit) = resolver.look_up(written, &TABLE, "a contact", at)?;
         let quantity = match what {
             ContactQuantity::Force if has_direction(written) => {
-                let bodies = [self.ellipsoid.on, self.against.place().on];
+                let bodies = [self.ellipsoid.center.on, self.against.place().on];
                 resolver.force_on(written, force, bodies, at)?
             }
             what => resolver.scalar(force, what, at),
@@ -69,10 +69,8 @@ impl Outputs for Contact {
 impl Visible for Contact {
     fn looks(&self) -> Vec<Look<'_>> {
         let round = Round {
-            center: &self.ellipsoid,
-            semi_axes: &self.semi_axes,
-            axes: &self.axes,
             degree: self.degree,
+            ..self.ellipsoid.round()
         };
         let other = match &self.against {
             Against::Plane(plane) => Look::Plane(plane, Some(round)),

@@ -1,77 +1,17 @@
 //! The terms of a contact, and the conditions that the numbers of a plane must meet together.
 
 use super::check::{Against, Contact};
+use crate::model::declared::{Declaration, declared_terms};
 use crate::model::law::Terms;
-use crate::model::part::{Field, Term, attachment, finite};
 use crate::model::requirement::{Curves, List};
 use crate::model::rule::Rule;
-use crate::model::{Body, Dimension, EdgeRule, Ellipsoid, Number, Plane};
+use crate::model::{Dimension, EdgeRule, Number, Plane};
 
 /// Largest product of tangent and normal, squared, that counts as rounding: up to this they are perpendicular.
 const SQUARE_TO: f64 = 1e-12;
 
 impl Terms for Contact {
-    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
-        let Contact {
-            ellipsoid,
-            semi_axes,
-            axes,
-            degree: _,
-            against,
-            elastic,
-            hysteresis,
-            damping,
-            damping_depth,
-            friction,
-            bristle,
-        } = self;
-        attachment(ellipsoid, "ellipsoid.center", fields);
-        shape(semi_axes, axes, "ellipsoid", dimension, fields);
-        let mut edge = None;
-        match against {
-            Against::Plane(Plane {
-                at,
-                normal,
-                tangent,
-                extent,
-            }) => {
-                attachment(at, "plane.at", fields);
-                finite(normal, "plane.normal", fields);
-                // only edges and bristles depend on the direction of the tangent
-                if extent.is_some() || bristle.is_some() {
-                    finite(tangent, "plane.along", fields);
-                }
-                edge = Some(extent);
-            }
-            Against::Ellipsoid(Ellipsoid {
-                center,
-                semi_axes,
-                axes,
-            }) => {
-                attachment(center, "with.center", fields);
-                shape(semi_axes, axes, "with", dimension, fields);
-            }
-        }
-        let term = |name: &str, key: &str| Term::new(name, key, Rule::NotNegative);
-        let mut elastics = term("elastic", "elastic");
-        elastics.keys.push("stiffness".into());
-        fields.push(Field::Term(elastics, elastic));
-        let mut unloading = term("hysteresis", "unloading").needs("there is no elastic force");
-        unloading.keys.push("unloading_slope".into());
-        fields.push(Field::Term(unloading, hysteresis));
-        fields.push(Field::Term(term("damping", "damping"), damping));
-        let fade = term("damping fades in", "damping_depth").needs("there is no damping");
-        fields.push(Field::Term(fade.only_as_written(), damping_depth));
-        let sliding = term("friction", "friction").needs("nothing presses");
-        fields.push(Field::Term(sliding, friction));
-        let holds = term("friction holds", "friction_displacement");
-        let holds = holds.needs("there is no friction");
-        fields.push(Field::Term(holds, bristle));
-        if let Some(extent) = edge {
-            let ends = term("edge", "plane.extent").needs("nothing presses");
-            fields.push(Field::Term(ends, extent));
-        }
-    }
+    declared_terms!();
 
     fn settle_terms(&mut self) {
         if self.elastic.is_none() {
@@ -98,9 +38,9 @@ impl Terms for Contact {
     }
 
     fn forget_directions(&mut self, dimension: Dimension) {
-        let [x, y, z] = &self.semi_axes;
+        let [x, y, z] = &self.ellipsoid.semi_axes;
         if x == z && (dimension == Dimension::Plane || x == y) {
-            self.axes = [Number::ZERO; 3];
+            self.ellipsoid.axes = [Number::ZERO; 3];
         }
     }
 
@@ -119,40 +59,18 @@ impl Terms for Contact {
         }
     }
 
-    fn bodies_mut(&mut self) -> Vec<&mut Body> {
-        vec![&mut self.ellipsoid.on, &mut self.against.place_mut().on]
-    }
-
     fn flatten(&mut self) -> bool {
-        self.ellipsoid.at[1] = Number::ZERO;
-        self.against.place_mut().at[1] = Number::ZERO;
-        self.semi_axes[1] = Number::ZERO;
-        (self.axes[0], self.axes[2]) = (Number::ZERO, Number::ZERO);
-        match &mut self.against {
-            Against::Plane(plane) => {
-                if let Some(extent) = &mut plane.extent {
-                    // Of the two half-lengths, keeps the one that is seen in the plane.
-                    let away = plane.tangent[1].constant().is_some_and(|y| y.abs() > 0.5);
-                    extent.half_lengths.remove(usize::from(!away));
-                }
-                plane.normal[1] = Number::ZERO;
-                plane.tangent = [Number::ZERO; 3];
-                // A plane with its normal along y would fill the whole plane x–z, so the contact is left out.
-                !plane.normal.iter().all(Number::is_zero)
-            }
-            Against::Ellipsoid(second) => {
-                second.semi_axes[1] = Number::ZERO;
-                (second.axes[0], second.axes[2]) = (Number::ZERO, Number::ZERO);
-                true
-            }
-        }
+        Declaration::flatten(self);
+        // a plane with its normal along y would fill the whole plane x–z, so the contact is left out
+        let plane = self.against.plane();
+        plane.is_none_or(|plane| !plane.normal.iter().all(Number::is_zero))
     }
 
     fn embed(&mut self, defaults: &[f64]) {
         let mean = |[x, _, z]: &[Number; 3]| {
             Number::Constant(0.5 * (x.value(defaults) + z.value(defaults)))
         };
-        self.semi_axes[1] = mean(&self.semi_axes);
+        self.ellipsoid.semi_axes[1] = mean(&self.ellipsoid.semi_axes);
         match &mut self.against {
             Against::Plane(plane) => {
                 let [x, _, z] = plane.normal.clone();
@@ -168,27 +86,6 @@ impl Terms for Contact {
 
 /// Extent along y of a planar scene in space: nothing moves out of it \[m\].
 const ENDLESS: f64 = 1e3;
-
-/// Adds the numbers of the shape of an ellipsoid.
-pub(crate) fn shape<'a>(
-    semi_axes: &'a mut [Number; 3],
-    axes: &'a mut [Number; 3],
-    key: &str,
-    dimension: Dimension,
-    fields: &mut Vec<Field<'a>>,
-) {
-    for (axis, number) in semi_axes.iter_mut().enumerate() {
-        // in the plane the second semi-axis is not used
-        let (place, rule) = match (dimension, axis) {
-            (Dimension::Space, _) => (axis, Rule::Positive),
-            (Dimension::Plane, 1) => (axis, Rule::Finite),
-            (Dimension::Plane, _) => (axis / 2, Rule::Positive),
-        };
-        let key = format!("{key}.semi_axes[{place}]");
-        fields.push(Field::Number(key, rule, number));
-    }
-    finite(axes, &format!("{key}.axes"), fields);
-}
 
 impl List<'_> {
     fn plane(&mut self, plane: &Plane, directed: bool) {

@@ -3,7 +3,7 @@
 //! If all elements of a system feel a field, the field is not applied to each of them, but once, to the reference
 //! joint.
 
-use super::check::Field;
+use super::keys::Field;
 use crate::force::{AppliedForces, Product, components};
 use crate::force::{Equations, Measures, Setting};
 use crate::model::{Body, ElementId};

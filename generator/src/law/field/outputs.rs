@@ -1,6 +1,6 @@
 //! A field is given, and has no outputs.
 
-use super::check::Field;
+use super::keys::Field;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::model::Quantity;

@@ -1,73 +1,17 @@
 //! Joint forces: laws of relative rotations and of freedoms; in space also of flexion and torsion.
 
-use super::keys::{
-    Drive as WrittenDrive, Flexion, Joint as Written, Lock as WrittenLock, Order as WrittenOrder,
-    Stop as WrittenStop, Torque,
-};
-use crate::description::measure::{
-    ANGLE, ANGULAR_DAMPING, ANGULAR_STIFFNESS, Expected, FORCE, LENGTH, LINEAR_DAMPING, RATE,
-    SPEED, STIFFNESS, TORQUE,
-};
+pub use super::keys::{Drive, JointTorque, Lock, Stop};
+use super::keys::{Flexion, Joint as Written, Order as WrittenOrder};
 use crate::description::place::At;
-use crate::description::quantity::Quantity;
 use crate::description::short::LongAxis;
 use crate::diagnostic::quoted;
+use crate::model::declared::{Declared, Written as Keys};
 use crate::model::law;
-use crate::model::part::{AXES, Part};
+use crate::model::part::AXES;
 use crate::model::resolve::Resolver;
-use crate::model::resolve::hysteresis::Unloading;
 use crate::model::resolve::joint::freedom_named;
-use crate::model::{Bristle, ElementId, FieldComponent, Friction, Hysteresis, Number, ScaledCurve};
-use crate::model::{Freedom as KinematicFreedom, Joint as KinematicJoint};
+use crate::model::{ElementId, Freedom as KinematicFreedom, Joint as KinematicJoint};
 use serde::Serialize;
-
-/// Speed from which on joint friction has its full size, if the user gives none \[rad/s\].
-const FRICTION_SPEED: f64 = 0.1;
-
-/// Speed from which on the friction of a slider has its full size, if the user gives none \[m/s\].
-const SLIDING_SPEED: f64 = 0.01;
-
-/// Depth behind a stop from which on its damping has its full size, if the user gives none \[m\].
-const DAMPING_LENGTH: f64 = 1e-3;
-
-/// Angle behind a stop from which on its damping has its full size, if the user gives none: 1° \[rad\].
-const DAMPING_ANGLE: f64 = std::f64::consts::PI / 180.0;
-
-/// The physical quantities of the numbers of a law, and its default values.
-#[derive(Clone, Copy)]
-struct Measures {
-    coordinate: Expected,
-    rate: Expected,
-    force: Expected,
-    stiffness: Expected,
-    damping: Expected,
-    /// Speed from which on friction has its full size, if the user gives none.
-    friction_speed: f64,
-    /// Depth behind a stop from which on damping has its full size, if the user gives none.
-    damping_depth: f64,
-}
-
-/// For a law of an angle.
-const OF_ANGLE: Measures = Measures {
-    coordinate: ANGLE,
-    rate: RATE,
-    force: TORQUE,
-    stiffness: ANGULAR_STIFFNESS,
-    damping: ANGULAR_DAMPING,
-    friction_speed: FRICTION_SPEED,
-    damping_depth: DAMPING_ANGLE,
-};
-
-/// For a law of a length.
-const OF_LENGTH: Measures = Measures {
-    coordinate: LENGTH,
-    rate: SPEED,
-    force: FORCE,
-    stiffness: STIFFNESS,
-    damping: LINEAR_DAMPING,
-    friction_speed: SLIDING_SPEED,
-    damping_depth: DAMPING_LENGTH,
-};
 
 /// Keys that are refused for a ball joint in space, as they do not say which rotation they belong to.
 const OF_ONE_ROTATION: [&str; 13] = [
@@ -136,72 +80,6 @@ pub struct Freedom {
     pub freedom: usize,
     /// The law of the coordinate. For a sliding freedom its units are \[m\] and \[N\].
     pub law: Box<JointTorque>,
-}
-
-/// Torque about one relative rotation.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct JointTorque {
-    /// Elastic torque as a function of the relative angle less `neutral`; the torque on the child is −curve. \[rad\] →
-    /// \[N m\].
-    pub elastic: Option<ScaledCurve>,
-    /// Relative angle at which the abscissa of the elastic curve is zero \[rad\]; `None` for 0.
-    pub neutral: Option<Number>,
-    /// The unloading law of the elastic curve, on both sides of its zero.
-    pub hysteresis: Option<Hysteresis>,
-    /// Viscous coefficient \[N m s/rad\]; `None` for 0.
-    pub damping: Option<Number>,
-    /// Coulomb friction torque; `None` for 0.
-    pub friction: Option<Friction>,
-    /// The bristle by which friction holds; without one, friction is a function of speed.
-    pub bristle: Option<Bristle>,
-    /// The ends of the rotation.
-    pub stop: Option<Stop>,
-    /// A lock that holds the angle as soon as a switch acts.
-    pub lock: Option<Lock>,
-    /// Torque of a motor \[N m\]; `None` for 0.
-    pub motor: Option<FieldComponent>,
-    /// A drive that moves the angle to a given one.
-    pub drive: Option<Drive>,
-}
-
-/// The ends of a relative rotation. At a depth δ > 0 beyond an end, N(δ) = max(0, stiffness δ + damping min(δ/fade, 1)
-/// δ̇) pushes back.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Stop {
-    /// Lower end of the free angles \[rad\].
-    pub from: Option<Number>,
-    /// Upper end of the free angles \[rad\].
-    pub to: Option<Number>,
-    /// \[N m/rad\]
-    pub stiffness: Number,
-    /// \[N m s/rad\]; `None` for 0.
-    pub damping: Option<Number>,
-    /// Depth up to which damping grows from 0 to its full size \[rad\]; `None` for full damping at once.
-    pub damping_angle: Option<Number>,
-}
-
-/// Holds the relative angle at its value at the moment when a switch began to act.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Lock {
-    /// Index into [`Model::switches`](crate::model::Model::switches).
-    pub by: usize,
-    /// \[N m/rad\]
-    pub stiffness: Number,
-    /// \[N m s/rad\]; `None` for 0.
-    pub damping: Option<Number>,
-}
-
-/// Drives a coordinate θ to a given one c: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), limited to ± `limit`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Drive {
-    /// c, a constant or a curve of time \[rad\].
-    pub to: FieldComponent,
-    /// \[N m/rad\]
-    pub stiffness: Number,
-    /// \[N m s/rad\]; `None` for 0.
-    pub damping: Option<Number>,
-    /// Largest torque \[N m\]; `None` if it is not limited.
-    pub limit: Option<Number>,
 }
 
 impl Bending {
@@ -274,7 +152,7 @@ fn in_plane(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [Join
         ));
     }
     let mut about: [JointTorque; 3] = Default::default();
-    about[1] = torque(resolver, &written.torque, at, OF_ANGLE);
+    about[1] = torque(resolver, &written.torque, at, false);
     about
 }
 
@@ -294,7 +172,7 @@ fn about_axes(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> [Jo
         for (law, (written, axis)) in about.iter_mut().zip(axes) {
             if let Some(written) = written {
                 let at = at.key("about").key(axis);
-                *law = torque(resolver, written, at, OF_ANGLE);
+                *law = torque(resolver, written, at, false);
             }
         }
     }
@@ -352,11 +230,8 @@ fn law_of_freedom(
     }
     let name = written.freedom.as_deref();
     let freedom = freedom_named(resolver, name, &written.joint, freedoms, at)?;
-    let measures = match freedoms[freedom].kind.turns() {
-        true => OF_ANGLE,
-        false => OF_LENGTH,
-    };
-    let law = torque(resolver, &written.torque, at, measures);
+    let slides = !freedoms[freedom].kind.turns();
+    let law = torque(resolver, &written.torque, at, slides);
     Some(Freedom {
         child,
         freedom,
@@ -383,7 +258,7 @@ fn bending(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
             None => JointTorque::default(),
         },
         torsion: match &written.torsion {
-            Some(torsion) => torque(resolver, torsion, at.key("torsion"), OF_ANGLE),
+            Some(torsion) => torque(resolver, torsion, at.key("torsion"), false),
             None => JointTorque::default(),
         },
     };
@@ -394,22 +269,7 @@ fn bending(resolver: &mut Resolver<'_>, written: &Written, at: At<'_>) -> Option
 /// The law of the angle between the long axes. Where it is 0 the plane of bending is not determined, and so there
 /// must be no elastic torque.
 fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>) -> JointTorque {
-    let law = Torque {
-        elastic: written.elastic.clone(),
-        stiffness: written.stiffness.clone(),
-        unloading: written.unloading.clone(),
-        unloading_slope: written.unloading_slope.clone(),
-        neutral: None,
-        damping: written.damping.clone(),
-        friction: written.friction.clone(),
-        friction_speed: written.friction_speed.clone(),
-        friction_displacement: None,
-        stop: written.stop.clone(),
-        lock: None,
-        motor: None,
-        drive: None,
-    };
-    let torque = torque(resolver, &law, at, OF_ANGLE);
+    let torque = torque(resolver, &written.0, at, false);
     let curve = torque.elastic.as_ref().and_then(|e| resolver.curve_of(e));
     if curve.is_some_and(|(curve, _)| !curve.points.contains(&[0.0, 0.0])) {
         resolver.problems.add(at.key("elastic").problem(
@@ -417,144 +277,29 @@ fn flexion(resolver: &mut Resolver<'_>, written: &Flexion, at: At<'_>) -> JointT
             "let the curve pass through the point [0, 0]",
         ));
     }
-    if let Some(stop) = &written.stop {
-        let place = at.key("stop");
-        if stop.from.is_some() {
-            resolver.problems.add(place.key("from").key_problem(
+    if at
+        .node
+        .get("stop")
+        .is_some_and(|stop| stop.get("from").is_some())
+    {
+        resolver
+            .problems
+            .add(at.key("stop").key("from").key_problem(
                 "the angle of flexion is never negative, and at 0 there is nothing to stop",
                 "remove `from`; `to` is where the bending ends",
             ));
-        }
     }
     torque
 }
 
-/// The law of one coordinate.
-fn torque(resolver: &mut Resolver<'_>, law: &Torque, at: At<'_>, of: Measures) -> JointTorque {
-    let elastic = resolver.elastic_in(
-        ("elastic", law.elastic.as_deref()),
-        law.stiffness.as_deref(),
-        at,
-        [of.coordinate, of.force, of.stiffness],
-    );
-    let neutral = law.neutral.as_deref();
-    let neutral = neutral.map(|n| resolver.number_in(n, at.key("neutral"), of.coordinate));
-    if law.neutral.is_some() && law.elastic.is_none() && law.stiffness.is_none() {
-        resolver.problems.add(at.key("neutral").key_problem(
-            "a neutral angle means nothing without an elastic curve",
-            "add `elastic: …` or `stiffness: …`, or remove `neutral`",
-        ));
-    }
-    let hysteresis = resolver.hysteresis(
-        elastic.as_ref(),
-        Unloading {
-            curve: law.unloading.as_deref(),
-            slope: law.unloading_slope.as_deref(),
-            loading: ("elastic", law.elastic.is_some() || law.stiffness.is_some()),
-            at,
-            expected: [of.coordinate, of.force, of.stiffness],
-        },
-    );
-    let friction = resolver.friction(
-        law.friction.as_deref(),
-        law.friction_speed.as_deref(),
-        at,
-        (of.force, of.rate, of.friction_speed),
-    );
-    let bristle = resolver.bristle(
-        (law.friction.as_deref(), friction.is_some()),
-        law.friction_displacement.as_deref(),
-        at,
-        of.coordinate,
-    );
-    let motor = law.motor.as_deref();
-    let motor = motor.map(|motor| resolver.component_in(motor, at.key("motor"), of.force));
-    let drive = law.drive.as_ref();
-    let drive = drive.and_then(|d| self::drive(resolver, d, at.key("drive"), of));
-    JointTorque {
-        neutral: neutral.filter(|n| !n.is_zero() && elastic.is_some()),
-        elastic,
-        hysteresis,
-        damping: resolver.coefficient_in(law.damping.as_deref(), at.key("damping"), of.damping),
-        friction,
-        bristle,
-        stop: law
-            .stop
-            .as_ref()
-            .and_then(|s| stop(resolver, s, at.key("stop"), of)),
-        lock: law
-            .lock
-            .as_ref()
-            .and_then(|l| lock(resolver, l, at.key("lock"), of)),
-        motor: motor.filter(Part::is_in),
-        drive,
-    }
-}
-
-/// The checked form of a drive; `None` if it has no effect.
-fn drive(
+/// The law of one coordinate, which slides or turns.
+fn torque(
     resolver: &mut Resolver<'_>,
-    written: &WrittenDrive,
+    written: &Keys<JointTorque>,
     at: At<'_>,
-    of: Measures,
-) -> Option<Drive> {
-    let to: FieldComponent = resolver.component_in(&written.to, at.key("to"), of.coordinate);
-    let place = at.key("stiffness");
-    let stiffness = resolver.coefficient_in(Some(&written.stiffness), place, of.stiffness);
-    let damping =
-        resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), of.damping);
-    let place = at.key("limit");
-    let limit = written.limit.as_deref();
-    let limit = limit.map(|limit| resolver.number_in(limit, place, of.force));
-    (stiffness.is_some() || damping.is_some()).then_some(Drive {
-        to,
-        stiffness: stiffness.unwrap_or(Number::ZERO),
-        damping,
-        limit,
-    })
-}
-
-/// The checked form of the ends of a rotation; `None` if they have no effect.
-fn stop(resolver: &Resolver<'_>, written: &WrittenStop, at: At<'_>, of: Measures) -> Option<Stop> {
-    let bound = |quantity: Option<&Quantity>, key| {
-        Some(resolver.number_in(quantity?, at.key(key), of.coordinate))
-    };
-    let from = bound(written.from.as_deref(), "from");
-    let to = bound(written.to.as_deref(), "to");
-    if from.is_none() && to.is_none() {
-        resolver.problems.add(at.problem(
-            "the stop does not say where the rotation ends",
-            "add `from: …`, `to: …`, or both",
-        ));
-    }
-    let place = at.key("stiffness");
-    let stiffness = resolver.coefficient_in(Some(&written.stiffness), place, of.stiffness);
-    let damping =
-        resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), of.damping);
-    let damping_angle = resolver.fade(
-        (written.damping.as_deref(), damping.is_some()),
-        (written.damping_angle.as_deref(), at.key("damping_angle")),
-        (of.coordinate, of.damping_depth),
-    );
-    (stiffness.is_some() || damping.is_some()).then_some(Stop {
-        from,
-        to,
-        stiffness: stiffness.unwrap_or(Number::ZERO),
-        damping,
-        damping_angle,
-    })
-}
-
-/// The checked form of a lock; `None` if it has no effect.
-fn lock(resolver: &Resolver<'_>, written: &WrittenLock, at: At<'_>, of: Measures) -> Option<Lock> {
-    let by = resolver.switch_id(&written.by, at.key("by"));
-    let place = at.key("stiffness");
-    let stiffness = resolver.coefficient_in(Some(&written.stiffness), place, of.stiffness);
-    let damping =
-        resolver.coefficient_in(written.damping.as_deref(), at.key("damping"), of.damping);
-    (stiffness.is_some() || damping.is_some()).then_some(Lock {
-        by: by?,
-        stiffness: stiffness.unwrap_or(Number::ZERO),
-        damping,
-    })
+    slides: bool,
+) -> JointTorque {
+    let mut reader = written.reader(resolver, at);
+    reader.slides = slides;
+    JointTorque::read(&mut reader).unwrap_or_default()
 }

@@ -1,12 +1,13 @@
 //! The terms of laws in a joint: of each rotation, of flexion and torsion, and of a freedom.
 
-use super::check::{Bending, Drive, Freedom, Joint, JointTorque, Lock, Order, Stop};
+use super::check::{Bending, Freedom, Joint, JointTorque, Order};
+use crate::model::declared::{Declaration, Names};
 use crate::model::law::Terms;
-use crate::model::part::{AXES, Field, Fresh, Part, Term, as_written};
+use crate::model::part::{AXES, Field};
 use crate::model::requirement::{Curves, List};
-use crate::model::rule::{Rule, Ruled};
+use crate::model::rule::Rule;
 use crate::model::unloading;
-use crate::model::{Body, Dimension, Number, ScaledCurve};
+use crate::model::{Body, Dimension, Number};
 
 /// The condition on an elastic curve of a joint that has a hysteresis.
 const RETURNS: &str =
@@ -21,22 +22,24 @@ impl Terms for Joint {
             bending,
         } = self;
         fields.push(Field::Body(Body::Element(*child)));
+        let names = Names::of_force(dimension);
         if let Some(bending) = bending {
             let Bending {
                 axis: _,
                 flexion,
                 torsion,
             } = &mut **bending;
-            torque(flexion, " of flexion", "flexion.", fields);
-            torque(torsion, " of torsion", "torsion.", fields);
+            flexion.add_fields(names.within(" of flexion", "flexion."), fields);
+            torsion.add_fields(names.within(" of torsion", "torsion."), fields);
         }
         for (axis, law) in about.iter_mut().enumerate() {
             match dimension {
                 Dimension::Space => {
-                    let (axis, key) = (AXES[axis], format!("about.{}.", AXES[axis]));
-                    torque(law, &format!(" about {axis}"), &key, fields);
+                    let axis = AXES[axis];
+                    let (about, below) = (format!(" about {axis}"), format!("about.{axis}."));
+                    law.add_fields(names.within(&about, &below), fields);
                 }
-                Dimension::Plane if axis == 1 => torque(law, "", "", fields),
+                Dimension::Plane if axis == 1 => law.add_fields(names, fields),
                 Dimension::Plane => {}
             }
         }
@@ -89,14 +92,14 @@ impl Terms for Joint {
 }
 
 impl Terms for Freedom {
-    fn add_fields<'a>(&'a mut self, _: Dimension, fields: &mut Vec<Field<'a>>) {
+    fn add_fields<'a>(&'a mut self, dimension: Dimension, fields: &mut Vec<Field<'a>>) {
         let Freedom {
             child,
             freedom: _,
             law,
         } = self;
         fields.push(Field::Body(Body::Element(*child)));
-        torque(law, "", "", fields);
+        law.add_fields(Names::of_force(dimension), fields);
     }
 
     fn settle_terms(&mut self) {
@@ -117,70 +120,10 @@ impl Terms for Freedom {
 }
 
 impl JointTorque {
-    /// Removes terms that have no effect without another term that is absent.
-    fn settle(&mut self) {
-        if self.elastic.is_none() {
-            self.neutral = None;
-            self.hysteresis = None;
-        }
-        if self.friction.is_none() {
-            self.bristle = None;
-        }
-    }
-
     /// Index of the switch of the lock, if there is one.
     fn locks_mut(&mut self) -> impl Iterator<Item = &mut usize> {
         self.lock.iter_mut().map(|lock| &mut lock.by)
     }
-}
-
-/// Adds the terms of the law about one relative rotation.
-fn torque<'a>(law: &'a mut JointTorque, about: &str, below: &str, fields: &mut Vec<Field<'a>>) {
-    let JointTorque {
-        elastic,
-        neutral,
-        hysteresis,
-        damping,
-        friction,
-        bristle,
-        stop,
-        lock,
-        motor,
-        drive,
-    } = law;
-    let term = |name: &str, key: &str, rule| {
-        Term::new(format!("{name}{about}"), format!("{below}{key}"), rule)
-    };
-    let mut elastics = term("elastic", "elastic", Rule::Finite);
-    elastics.keys.push(format!("{below}stiffness"));
-    fields.push(Field::Term(elastics, elastic));
-    let angle = term("neutral angle", "neutral", Rule::Finite);
-    let angle = angle.needs("there is no elastic torque");
-    fields.push(Field::Term(angle, neutral));
-    let mut unloading = term("hysteresis", "unloading", Rule::Finite);
-    unloading.keys.push(format!("{below}unloading_slope"));
-    let unloading = unloading.needs("there is no elastic torque");
-    fields.push(Field::Term(unloading, hysteresis));
-    let dampings = term("damping", "damping", Rule::NotNegative);
-    fields.push(Field::Term(dampings, damping));
-    let frictions = term("friction", "friction", Rule::NotNegative);
-    fields.push(Field::Term(frictions, friction));
-    let holds = term("friction holds", "friction_displacement", Rule::Positive);
-    let holds = holds.needs("there is no friction");
-    fields.push(Field::Term(holds, bristle));
-    fields.push(Field::Term(term("stop", "stop", Rule::Finite), stop));
-    fields.push(Field::Term(term("lock", "lock", Rule::Finite), lock));
-    let motors = term("motor", "motor", Rule::Finite).only_as_written();
-    fields.push(Field::Term(motors, motor));
-    fields.push(Field::Term(term("drive", "drive", Rule::Finite), drive));
-}
-
-as_written! {
-    Stop { stiffness: NotNegative } {
-        from: Finite, to: Finite, damping: NotNegative, damping_angle: NotNegative
-    } [];
-    Lock { stiffness: NotNegative } { damping: NotNegative } [] - by;
-    Drive { stiffness: NotNegative } { damping: NotNegative, limit: Positive } [to];
 }
 
 impl List<'_> {

@@ -1,6 +1,6 @@
 //! A given force at a point of an element, and a given moment, in absolute axes.
 
-use super::check::Load;
+use super::keys::Load;
 use crate::force::{AppliedForces, Product, components};
 use crate::force::{Equations, Measures, Setting};
 

@@ -1,9 +1,7 @@
 //! A given force and moment on an element.
 
-pub(crate) mod check;
 pub(crate) mod force;
 pub mod keys;
 pub(crate) mod outputs;
-pub(crate) mod terms;
 
-pub use check::*;
+pub use keys::Load;

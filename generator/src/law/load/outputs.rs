@@ -1,6 +1,6 @@
 //! A load is given, and has no outputs.
 
-use super::check::Load;
+use super::keys::Load;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::model::Quantity;

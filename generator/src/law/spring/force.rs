@@ -3,7 +3,7 @@
 //! L is the distance of the ends and u the unit vector from the first to the second. F = f(L − L₀) + d L̇ acts on the
 //! first end along u, and the opposite on the second.
 
-use super::check::Spring;
+use super::keys::Spring;
 use super::outputs::SpringMeasures;
 use crate::force::{Acts, AppliedForces, Product};
 use crate::force::{Equations, Measures, Setting};

@@ -1,55 +1,79 @@
 //! The keys of a spring.
 
-use crate::description::curve::FunctionOf;
-use crate::description::expand::{Expander, Node};
-use crate::description::force::{Acting, Attachment};
-use crate::description::measure::{Force, Length, LinearDamping, Stiffness};
-use crate::description::place::At;
+use crate::description::force::Acting;
+use crate::description::measure::{Force, Length, LinearDamping, NotNegative, Stiffness};
 use crate::description::quantity::Number;
-use crate::description::shape::{Flat, Key, record};
-use crate::model::law::Law;
-use crate::model::resolve::Resolver;
-use crate::model::resolve::law::{Keys, record};
+use crate::description::shape::Flat;
+use crate::diagnostic::quoted;
+use crate::model::Attachment;
+use crate::model::declared::{
+    Coefficient, DeclaredLaw, Elastic, Given, Reader, Written, declare, declared_terms,
+};
+use crate::model::law::Terms;
 
-record! {
-    /// A spring and a damper between two points.
-    Spring as "a spring" {
+/// The keys of a spring.
+pub type SpringKeys = Written<Spring>;
+
+declare! {
+    /// A spring and a damper side by side between two points: u is the unit vector from the first to the second, L
+    /// their distance.
+    Spring as "a spring" only written {
         /// name, unique among the springs
         spring: String,
         /// when it acts
         acting: Flat<Acting>,
         /// `true` adds its [mirror image](#a-mirror)
         mirror: Option<bool> = "`false`",
+    } and kept {
         /// one [end](#an-attachment)
         from: Attachment,
         /// the other end, on another body
         to: Attachment,
         /// curve of the elongation: the length less the length without force
-        elastic: Option<FunctionOf<Length, Force>>,
-        /// instead of `elastic`: force per elongation, [a straight curve](#a-stiffness)
-        stiffness: Option<Number<Stiffness>>,
+        elastic: Elastic<Length, Force, Stiffness> {
+            /// instead of `elastic`: force per elongation, [a straight curve](#a-stiffness)
+            stiffness: Option<Number<NotNegative<Stiffness>>>,
+        },
         /// length without force
-        length: Option<Number<Length>> = "the distance of the ends at the start",
+        length: Given<NotNegative<Length>> = "the distance of the ends at the start",
         /// viscous coefficient on the rate of the length
-        damping: Option<Number<LinearDamping>> = "0",
+        damping: Coefficient<NotNegative<LinearDamping>> = "0",
     }
 }
 
-impl Keys for Spring {
+impl DeclaredLaw for Spring {
     const KEY: &'static str = "spring";
     const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["from", "to"]);
 
-    fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>> {
-        super::check::spring(resolver, self, at).map(|law| Box::new(law) as Box<dyn Law>)
+    fn check_keys(_: &str, reader: &Reader<'_, '_, '_>) {
+        reader.check_needs(
+            "length",
+            &["elastic", "stiffness"],
+            "a length means nothing without an elastic force",
+            "add `stiffness: …` or `elastic: …`, or remove `length`",
+        );
     }
 
-    fn records() -> Vec<(&'static str, Vec<Key>)> {
-        vec![record::<Spring>()]
+    fn check(self, name: &str, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
+        if self.from.on == self.to.on {
+            reader.resolver.problems.add(reader.at.key("to").problem(
+                format!("both ends of spring {} are on the same body", quoted(name)),
+                "a spring runs between two bodies; `frame` is the absolute frame",
+            ));
+        }
+        Some(Spring {
+            length: self.length.filter(|_| self.elastic.is_some()),
+            ..self
+        })
     }
+}
 
-    fn mirror(expander: &Expander<'_>, image: &mut Node) {
-        for key in ["from", "to"] {
-            image.change(key, |end| expander.mirrored_surface(end));
+impl Terms for Spring {
+    declared_terms!(flatten);
+
+    fn settle_terms(&mut self) {
+        if self.elastic.is_none() {
+            self.length = None;
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Outputs of a spring.
 
-use super::check::Spring;
+use super::keys::Spring;
 use crate::description::output::Output as Written;
 use crate::description::place::At;
 use crate::expression::Expr;

@@ -631,23 +631,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// The elastic law of a length or an angle: a curve, or the line of a `stiffness`; `None` if there is none. `key`
-    /// is the key of the curve.
-    pub fn elastic<X: InUnit, Y: InUnit, Slope: InUnit>(
-        &mut self,
-        (key, curve): (&str, Option<&FunctionOf<X, Y>>),
-        stiffness: Option<&WrittenNumber<Slope>>,
-        at: At<'_>,
-    ) -> Option<ScaledCurve> {
-        self.elastic_in(
-            (key, curve.map(|c| &**c)),
-            stiffness.map(|s| &**s),
-            at,
-            [X::EXPECTED, Y::EXPECTED, Slope::EXPECTED],
-        )
-    }
-
-    /// The elastic law of a coordinate with these quantities.
+    /// The elastic law of a coordinate: a curve at `key`, or the line of a `stiffness`; `None` if there is none. The
+    /// quantities are abscissa, ordinate and slope.
     pub fn elastic_in(
         &mut self,
         (key, curve): (&str, Option<&NoConstant>),

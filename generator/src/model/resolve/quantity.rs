@@ -6,12 +6,12 @@
 use super::Resolver;
 use crate::description::expression::{self, Expression, Function, Kind, Operator};
 use crate::description::measure::{ACCELERATION, Expected, Measured};
-use crate::description::place::At;
+use crate::description::place::{At, Step};
 use crate::description::quantity::{Number as WrittenNumber, OneOrThree, Quantity};
 use crate::description::slip;
 use crate::description::unit::Dimension;
-use crate::diagnostic::{quoted, suggestion};
-use crate::model::{Number, Requirement};
+use crate::diagnostic::{Diagnostic, quoted, suggestion};
+use crate::model::{Number, Requirement, Rule};
 
 /// What is known about the dimension of a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,6 +169,26 @@ impl Resolver<'_> {
             }
             reported.push(path);
         }
+    }
+
+    /// The problem that a number of a force breaks its rule, in the words of [`judge`](Self::judge). It is reported also
+    /// of a number that has no effect.
+    pub fn breaks(&self, rule: Rule, value: f64, at: At<'_>) -> Diagnostic {
+        let mut path = String::new();
+        for step in at.trail() {
+            match step {
+                Step::Key(key) if path.is_empty() => path.push_str(key),
+                Step::Key(key) => path = format!("{path}.{key}"),
+                Step::Item(index) => path = format!("{path}[{index}]"),
+            }
+        }
+        let (law, name) = self.owner.split_once(' ').unwrap_or((&self.owner, ""));
+        let sentence = format!(
+            "`{path}` of {law} {} {}, but is {value}",
+            quoted(name),
+            rule.words()
+        );
+        at.problem(sentence, rule.help())
     }
 
     /// Words to add to a message if a value depends on parameters.

@@ -53,9 +53,11 @@ fn contact(ellipsoid: Attachment, semi: [f64; 2], plane: Attachment, normal: [f6
     Force {
         name: "contact".into(),
         law: Box::new(Contact {
-            ellipsoid,
-            semi_axes: vector(semi[0], semi[0], semi[1]),
-            axes: vector(0.0, 0.0, 0.0),
+            ellipsoid: Ellipsoid {
+                center: ellipsoid,
+                semi_axes: vector(semi[0], semi[0], semi[1]),
+                axes: vector(0.0, 0.0, 0.0),
+            },
             degree: 2,
             against: Against::Plane(Plane {
                 at: plane,

@@ -143,7 +143,7 @@ fn apply<'g>(
         Against::Plane(plane) => on_plane(graph, dimension, motion, contact, plane),
         Against::Ellipsoid(second) => on_ellipsoid(graph, dimension, motion, contact, second),
     };
-    let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
+    let (on, on_second) = (contact.ellipsoid.center.on, contact.against.place().on);
     let owner = format!("contact {name}");
     let curves = applied.curves_so_far();
     for &flat in &touch.flats {
@@ -248,7 +248,7 @@ fn push_of_edge<'g>(
     touch: &Touch<'g>,
     relative: [Vec3<'g>; 2],
 ) -> Vec3<'g> {
-    let (on, on_second) = (contact.ellipsoid.on, contact.against.place().on);
+    let (on, on_second) = (contact.ellipsoid.center.on, contact.against.place().on);
     let push = edge::push(applied, owner, weight, stored, &touch.moving, relative);
     applied.apply(on, touch.centre, push.force);
     applied.apply(on_second, touch.centre_on_second, -push.force);
@@ -381,8 +381,11 @@ fn on_plane<'g>(
     contact: &Contact,
     flat: &Plane,
 ) -> Touch<'g> {
-    let (ellipsoid, plane) = (motion.body(contact.ellipsoid.on), motion.body(flat.at.on));
-    let centre = motion.attachment(graph, &contact.ellipsoid);
+    let (ellipsoid, plane) = (
+        motion.body(contact.ellipsoid.center.on),
+        motion.body(flat.at.on),
+    );
+    let centre = motion.attachment(graph, &contact.ellipsoid.center);
     let on_plane = motion.attachment(graph, &flat.at);
     let local_normal = vector(graph, &flat.normal);
     let normal = plane.rotation.times(local_normal);

@@ -37,13 +37,13 @@ pub fn on_ellipsoid<'g>(
     contact: &Contact,
     second: &Ellipsoid,
 ) -> Touch<'g> {
-    let bodies = [&contact.ellipsoid, &second.center].map(|place| motion.body(place.on));
+    let bodies = [&contact.ellipsoid.center, &second.center].map(|place| motion.body(place.on));
     let first = Body::of(
         graph,
         dimension,
         motion,
-        &contact.ellipsoid,
-        [&contact.semi_axes, &contact.axes],
+        &contact.ellipsoid.center,
+        [&contact.ellipsoid.semi_axes, &contact.ellipsoid.axes],
     );
     let other = Body::of(
         graph,

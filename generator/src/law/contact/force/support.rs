@@ -41,7 +41,7 @@ impl<'g> Support<'g> {
         contact: &Contact,
         normal: Vec3<'g>,
     ) -> Self {
-        let semi_axes = vector(graph, &contact.semi_axes).0;
+        let semi_axes = vector(graph, &contact.ellipsoid.semi_axes).0;
         let used: &[usize] = match dimension {
             Dimension::Plane => &[0, 2],
             Dimension::Space => &[0, 1, 2],
@@ -56,8 +56,8 @@ impl<'g> Support<'g> {
                 shape: None,
             };
         }
-        let body = motion.body(contact.ellipsoid.on).rotation;
-        let axes = constant_rotation(graph, &contact.axes);
+        let body = motion.body(contact.ellipsoid.center.on).rotation;
+        let axes = constant_rotation(graph, &contact.ellipsoid.axes);
         let local = axes.transposed_times(body.transposed_times(normal));
         let stretched = Vec3(std::array::from_fn(|i| semi_axes[i] * local.0[i]));
         if contact.degree != 2 {
