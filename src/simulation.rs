@@ -61,14 +61,14 @@ pub const MOST_INSTANTS: usize = 4096;
 /// A model that can run jobs, whatever evaluates its equations.
 pub trait Runs {
     /// Names, units and sizes.
-    fn info(&self) -> &'static Info;
+    fn info(&self) -> &Info<'_>;
     /// Runs a job: [`Engine::run`].
     fn run(&self, job: &Job, writer: &mut SampleWriter<'_>, observer: &mut Observer<'_>)
     -> Outcome;
 }
 
 impl Runs for Engine {
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         Engine::info(self)
     }
 
@@ -83,8 +83,8 @@ impl Runs for Engine {
 }
 
 /// Always runs in double precision.
-impl Runs for RustcModel {
-    fn info(&self) -> &'static Info {
+impl Runs for RustcModel<'_> {
+    fn info(&self) -> &Info<'_> {
         RustcModel::info(self)
     }
 

@@ -344,7 +344,7 @@ struct CountedIn<'a, T: Real> {
 }
 
 impl Family for CountedFamily<'_> {
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         self.0.info()
     }
 
@@ -380,7 +380,7 @@ macro_rules! counted {
 
 macro_rules! methods {
     () => {
-        fn info(&self) -> &'static Info {
+        fn info(&self) -> &Info<'_> {
             self.model.info()
         }
 

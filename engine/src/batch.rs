@@ -77,7 +77,7 @@ pub struct Rollout {
 }
 
 /// Why rows were not computed. Nothing is written then.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Misfit {
     /// A slice has another length than the rows need.
@@ -95,8 +95,8 @@ pub enum Misfit {
         row: usize,
         /// Why.
         refusal: Refusal,
-        /// Names and limits, for the message.
-        info: &'static Info,
+        /// Why, in words.
+        message: String,
     },
     /// The engine was made without what is wanted.
     Missing {
@@ -107,16 +107,13 @@ pub enum Misfit {
 
 impl std::fmt::Display for Misfit {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match *self {
+        match self {
             Misfit::Length {
                 what,
                 found,
                 needed,
             } => write!(f, "{what} must have {needed} numbers, and has {found}"),
-            Misfit::Refused { row, refusal, info } => {
-                write!(f, "row {row}: ")?;
-                refusal.write(info, f)
-            }
+            Misfit::Refused { row, message, .. } => write!(f, "row {row}: {message}"),
             Misfit::Missing { what } => write!(f, "the engine was made without {what}"),
         }
     }
@@ -127,9 +124,9 @@ impl std::error::Error for Misfit {}
 /// Number of rows whose inputs are compared with their limits at once, so that registers are full.
 const REPEATED: usize = 8;
 
-/// A model at many states. It is made once; calls allocate nothing, except that a call on several threads starts them.
+/// A model at many states. It is made once; calls allocate nothing, except that a call on several
+/// threads starts them, and that a refusal is put into words.
 pub struct Batch {
-    info: &'static Info,
     /// The parameters that each row has.
     varying: Varying,
     /// The least value that each of them may have, and the greatest, for [`REPEATED`] rows; finite, so that other values
@@ -170,7 +167,7 @@ impl Worker {
 impl std::fmt::Debug for Batch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Batch")
-            .field("model", &self.info.name)
+            .field("model", &self.info().name)
             .field("threads", &self.workers.len())
             .finish_non_exhaustive()
     }
@@ -190,7 +187,6 @@ impl Engine {
             many: made(Width::widest()),
         };
         let mut batch = Batch {
-            info,
             varying: Varying::default(),
             limits: Default::default(),
             parameters: info.parameters.iter().map(|of| of.default).collect(),
@@ -207,8 +203,8 @@ impl Engine {
 
 impl Batch {
     /// Names, units and sizes.
-    pub fn info(&self) -> &'static Info {
-        self.info
+    pub fn info(&self) -> &Info<'_> {
+        self.checks.info()
     }
 
     /// The parameters that vary from row to row, as indices into [`Info::parameters`].
@@ -222,13 +218,15 @@ impl Batch {
     /// If the model has no parameter with one of these indices.
     pub fn vary(&mut self, parameters: &[usize]) {
         assert!(
-            parameters.iter().all(|of| *of < self.info.parameters.len()),
+            parameters
+                .iter()
+                .all(|of| *of < self.info().parameters.len()),
             "parameters of {}",
-            self.info.name
+            self.info().name
         );
         self.varying = self.checks.varying(parameters);
         let limits = parameters.iter().map(|index| {
-            let of = &self.info.parameters[*index];
+            let of = &self.info().parameters[*index];
             match of.input {
                 true => (of.min.max(f64::MIN), of.max.min(f64::MAX)),
                 false => (f64::MIN, f64::MAX),
@@ -253,19 +251,14 @@ impl Batch {
     /// Another number of values than there are parameters, or values that are refused; nothing is set then.
     pub fn set_parameters(&mut self, values: &[f64]) -> Result<(), Misfit> {
         fits("parameters", values.len(), self.parameters.len())?;
-        let info = self.info;
-        let refused = |refusal| Misfit::Refused {
-            row: 0,
-            refusal,
-            info,
-        };
         for (index, &value) in values.iter().enumerate() {
+            let refused = |refusal| self.refused(0, refusal);
             self.allowed(index, value).map_err(refused)?;
         }
         self.checks.set_parameters(values);
         if let Some(condition) = self.checks.violated() {
             self.checks.set_parameters(&self.parameters);
-            return Err(refused(Refusal::Condition(condition)));
+            return Err(self.refused(0, Refusal::Condition(condition)));
         }
         self.parameters.copy_from_slice(values);
         self.forward_parameters();
@@ -285,11 +278,11 @@ impl Batch {
     /// # Panics
     /// If there is no function of this index.
     pub fn length(&self, wanted: Wanted) -> usize {
-        let freedoms = self.info.velocities.len();
+        let freedoms = self.info().velocities.len();
         match wanted {
-            Wanted::Rates => self.info.state_length(),
+            Wanted::Rates => self.info().state_length(),
             Wanted::MassMatrix => freedoms * freedoms,
-            Wanted::Section(section) => self.info.length(section),
+            Wanted::Section(section) => self.info().length(section),
             Wanted::Function(index) => self.functions[index],
             _ => freedoms,
         }
@@ -351,7 +344,7 @@ impl Batch {
             fits("inputs", rows.inputs.len(), needed)?;
             self.check(rows.inputs)?;
         }
-        let lengths = [self.info.state_length(), self.info.outputs.len()];
+        let lengths = [self.info().state_length(), self.info().outputs.len()];
         let [of_states, of_outputs] = lengths.map(|length| length * rollout.steps);
         for (what, found, length) in [
             ("states", states.len(), of_states),
@@ -372,7 +365,7 @@ impl Batch {
 
     /// The number of rows.
     fn count(&self, rows: &Rows<'_>) -> Result<usize, Misfit> {
-        let info = self.info;
+        let info = self.info();
         let count = match info.velocities.len() {
             0 => 0,
             length => rows.velocities.len() / length,
@@ -407,9 +400,8 @@ impl Batch {
             return Ok(());
         }
         for (row, values) in inputs.chunks_exact(self.varying().len().max(1)).enumerate() {
-            let info = self.info;
-            let refused = |refusal| Misfit::Refused { row, refusal, info };
             if !within {
+                let refused = |refusal| self.refused(row, refusal);
                 for (&index, &value) in self.varying().iter().zip(values) {
                     self.allowed(index, value).map_err(refused)?;
                 }
@@ -417,15 +409,26 @@ impl Batch {
             if self.conditional {
                 self.checks.set_some(&self.varying, values);
                 if let Some(condition) = self.checks.violated() {
-                    return Err(refused(Refusal::Condition(condition)));
+                    return Err(self.refused(row, Refusal::Condition(condition)));
                 }
             }
         }
         Ok(())
     }
 
+    fn refused(&self, row: usize, refusal: Refusal) -> Misfit {
+        let mut message = String::new();
+        // a string takes all text
+        let _ = refusal.write(self.info(), &mut message);
+        Misfit::Refused {
+            row,
+            refusal,
+            message,
+        }
+    }
+
     fn allowed(&self, index: usize, value: f64) -> Result<(), Refusal> {
-        let of = &self.info.parameters[index];
+        let of = &self.info().parameters[index];
         match value {
             value if !value.is_finite() => Err(Refusal::NotFinite(index, value)),
             value if of.input && !(of.min..=of.max).contains(&value) => {

@@ -1,98 +1,152 @@
-//! Converts the facts of a model to the form of the runtime, which lives as long as the program.
+//! The facts of a model in the form of the runtime.
 
 use bryant_generator::equations::Watched;
 use bryant_generator::model;
 use bryant_generator::program::{Facts, Kind};
 use bryant_runtime::curve::Extrapolate;
 use bryant_runtime::{CurveInfo, CurveKind, Info, OutputInfo, ParameterInfo, StateKind};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Arc;
 
-/// All facts that were converted, each with its result.
-static KNOWN: Mutex<Vec<(Facts, &'static Info)>> = Mutex::new(Vec::new());
-
-/// The facts of a model as [`Info`].
-///
-/// `Info` consists of references that last as long as the program. Their memory is leaked on purpose, some kilobytes
-/// for each model. Equal facts give the same `Info`, so making a model many times leaks only once.
-pub fn info(facts: &Facts) -> &'static Info {
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some((_, info)) = known.iter().find(|(of, _)| of == facts) {
-        return info;
-    }
-    let info: &'static Info = Box::leak(Box::new(leaked(facts)));
-    known.push((facts.clone(), info));
-    info
+/// The facts of a model, and the [`Info`] that borrows them.
+#[derive(Debug)]
+pub struct OwnedInfo {
+    /// It borrows from the fields behind it, so its lifetime is theirs: only [`OwnedInfo::get`] reads it.
+    info: Info<'static>,
+    _lists: Arc<Lists<'static>>,
+    _facts: Arc<Facts>,
 }
 
-fn leaked(facts: &Facts) -> Info {
-    let curves = facts.curves.iter().map(|curve| CurveInfo {
-        name: word(&curve.name),
-        unit: word(&curve.unit),
-        first: curve.range[0],
-        last: curve.range[1],
-        ends: curve.ends,
-        extrapolate: extrapolate(curve.extrapolate),
-        told: curve.told,
-        kind: match curve.kind {
-            Watched::Curve(..) => CurveKind::Curve,
-            Watched::Bearing => CurveKind::Bearing,
-            Watched::HalfTurn => CurveKind::HalfTurn,
-            Watched::Direction(component) => CurveKind::Direction(component),
-            Watched::Volume => CurveKind::Volume,
-            Watched::Edge => CurveKind::Edge,
-        },
-    });
-    let outputs = facts.outputs.iter().map(|output| OutputInfo {
-        name: word(&output.name),
-        unit: word(&output.unit),
-    });
-    let parameters = facts.parameters.iter().map(|parameter| ParameterInfo {
-        name: word(&parameter.name),
-        unit: word(&parameter.unit),
-        default: parameter.default,
-        min: parameter.min,
-        max: parameter.max,
-        input: parameter.input,
-    });
-    Info {
-        name: word(&facts.name),
-        digest: word(&facts.digest),
-        dimension: facts.dimension,
-        coordinates: words(&facts.coordinates),
-        velocities: words(&facts.velocities),
-        kinds: list(facts.kinds.iter().map(|&of| kind(of))),
-        units: words(&facts.units),
-        auxiliaries: words(&facts.auxiliaries),
-        memory: words(&facts.memory),
-        event_functions: words(&facts.event_functions),
-        kinks: words(&facts.kinks),
-        onsets: words(&facts.onsets),
-        corners: facts.corners,
-        longest_step: facts.longest_step,
-        powers: words(&facts.powers),
-        curves: list(curves),
-        time_ends: facts.time_ends,
-        pivots: words(&facts.pivots),
-        conditions: words(&facts.conditions),
-        free: facts.free,
-        outputs: list(outputs),
-        parameters: list(parameters),
-        breakpoints: list(facts.breakpoints.iter().copied()),
-        duration: facts.duration,
-        every: facts.every,
+impl OwnedInfo {
+    /// A copy of these facts.
+    #[expect(unsafe_code, reason = "the parts of one value borrow from each other")]
+    pub fn new(facts: &Facts) -> Self {
+        let facts = Arc::new(facts.clone());
+        // SAFETY, here and below: What an `Arc` refers to stays in its place and is not changed while the `Arc` lives,
+        // wherever that moves. Both live as long as the owner, which drops what borrows before what is borrowed. The
+        // `Info` leaves the owner by `get` alone, which shortens all lifetimes in it to a borrow of the owner.
+        let of: &'static Facts = unsafe { &*Arc::as_ptr(&facts) };
+        let lists = Arc::new(Lists::of(of));
+        let all: &'static Lists<'static> = unsafe { &*Arc::as_ptr(&lists) };
+        OwnedInfo {
+            info: all.info(of),
+            _lists: lists,
+            _facts: facts,
+        }
+    }
+
+    /// The facts.
+    pub fn get(&self) -> &Info<'_> {
+        &self.info
     }
 }
 
-fn word(text: &str) -> &'static str {
-    Box::leak(text.into())
+/// The lists of an [`Info`], whose texts are those of the facts.
+#[derive(Debug)]
+struct Lists<'a> {
+    /// The lists of names, in the order of [`Lists::of`].
+    texts: [Vec<&'a str>; 11],
+    kinds: Vec<StateKind>,
+    curves: Vec<CurveInfo<'a>>,
+    outputs: Vec<OutputInfo<'a>>,
+    parameters: Vec<ParameterInfo<'a>>,
 }
 
-fn words(texts: &[String]) -> &'static [&'static str] {
-    list(texts.iter().map(|text| word(text)))
-}
+impl<'a> Lists<'a> {
+    fn of(facts: &'a Facts) -> Self {
+        let texts = [
+            &facts.coordinates,
+            &facts.velocities,
+            &facts.units,
+            &facts.auxiliaries,
+            &facts.memory,
+            &facts.event_functions,
+            &facts.kinks,
+            &facts.onsets,
+            &facts.powers,
+            &facts.pivots,
+            &facts.conditions,
+        ];
+        let curves = facts.curves.iter().map(|curve| CurveInfo {
+            name: &curve.name,
+            unit: &curve.unit,
+            first: curve.range[0],
+            last: curve.range[1],
+            ends: curve.ends,
+            extrapolate: extrapolate(curve.extrapolate),
+            told: curve.told,
+            kind: match curve.kind {
+                Watched::Curve(..) => CurveKind::Curve,
+                Watched::Bearing => CurveKind::Bearing,
+                Watched::HalfTurn => CurveKind::HalfTurn,
+                Watched::Direction(component) => CurveKind::Direction(component),
+                Watched::Volume => CurveKind::Volume,
+                Watched::Edge => CurveKind::Edge,
+            },
+        });
+        let outputs = facts.outputs.iter().map(|output| OutputInfo {
+            name: &output.name,
+            unit: &output.unit,
+        });
+        let parameters = facts.parameters.iter().map(|parameter| ParameterInfo {
+            name: &parameter.name,
+            unit: &parameter.unit,
+            default: parameter.default,
+            min: parameter.min,
+            max: parameter.max,
+            input: parameter.input,
+        });
+        Lists {
+            texts: texts.map(|names| names.iter().map(String::as_str).collect()),
+            kinds: facts.kinds.iter().map(|&of| kind(of)).collect(),
+            curves: curves.collect(),
+            outputs: outputs.collect(),
+            parameters: parameters.collect(),
+        }
+    }
 
-fn list<T>(items: impl Iterator<Item = T>) -> &'static [T] {
-    Box::leak(items.collect())
+    /// All facts; `facts` are those of which the lists are.
+    fn info(&'a self, facts: &'a Facts) -> Info<'a> {
+        let [
+            coordinates,
+            velocities,
+            units,
+            auxiliaries,
+            memory,
+            event_functions,
+            kinks,
+            onsets,
+            powers,
+            pivots,
+            conditions,
+        ] = &self.texts;
+        Info {
+            name: &facts.name,
+            digest: &facts.digest,
+            dimension: facts.dimension,
+            coordinates,
+            velocities,
+            kinds: &self.kinds,
+            units,
+            auxiliaries,
+            memory,
+            event_functions,
+            kinks,
+            onsets,
+            corners: facts.corners,
+            longest_step: facts.longest_step,
+            powers,
+            curves: &self.curves,
+            time_ends: facts.time_ends,
+            pivots,
+            conditions,
+            free: facts.free,
+            outputs: &self.outputs,
+            parameters: &self.parameters,
+            breakpoints: &facts.breakpoints,
+            duration: facts.duration,
+            every: facts.every,
+        }
+    }
 }
 
 fn kind(of: Kind) -> StateKind {

@@ -125,8 +125,8 @@ impl<T: Real, S: Holds<T>> Differentiated<T, S> {
         let zeros = |length| vec![Dual::constant(S::from_f64(0.0)); length];
         Differentiated {
             evaluator: Evaluator::new(shared.clone()),
-            state: zeros(shared.info.state_length()),
-            rate: zeros(shared.info.varying_length()),
+            state: zeros(shared.info().state_length()),
+            rate: zeros(shared.info().varying_length()),
             derived: shared.lists.derived,
             current: false,
             of: std::marker::PhantomData,

@@ -3,7 +3,7 @@
 use crate::call::Library;
 use crate::evaluate::{Codes, Evaluator};
 use crate::execute::{Execute, Given};
-use crate::info;
+use crate::info::OwnedInfo;
 use crate::interpret::{Interpreter, Programs};
 use crate::jacobian::{Jacobian, jacobian};
 use crate::sets::Sets;
@@ -27,7 +27,7 @@ pub struct Engine {
 /// The parts of a model that all scalars share.
 #[derive(Debug)]
 pub(crate) struct Shared {
-    pub info: &'static Info,
+    info: OwnedInfo,
     pub lists: Lists,
     pub library: Arc<Library>,
     /// Made when a method is interpreted for the first time.
@@ -41,6 +41,11 @@ pub(crate) struct Shared {
 }
 
 impl Shared {
+    /// Names, units and sizes.
+    pub fn info(&self) -> &Info<'_> {
+        self.info.get()
+    }
+
     /// The methods in the form that the interpreter runs.
     pub fn programs(&self) -> &Programs {
         self.programs.get_or_init(|| Programs::new(&self.lists))
@@ -131,7 +136,7 @@ impl Engine {
         let state = lists.facts.kinds.len() as u32;
         Ok(Engine {
             shared: Arc::new(Shared {
-                info: info::info(&lists.facts),
+                info: OwnedInfo::new(&lists.facts),
                 library: Arc::new(Library::new(&lists.curves, users)),
                 programs: OnceLock::new(),
                 functions: lists
@@ -147,8 +152,8 @@ impl Engine {
     }
 
     /// Names, units and sizes.
-    pub fn info(&self) -> &'static Info {
-        self.shared.info
+    pub fn info(&self) -> &Info<'_> {
+        self.shared.info()
     }
 
     /// How methods are evaluated over doubles, as text for people: "machine code" or "interpreter".
@@ -203,8 +208,8 @@ fn behind_state(function: &program::Function, state: u32) -> List {
 }
 
 impl Family for Engine {
-    fn info(&self) -> &'static Info {
-        self.shared.info
+    fn info(&self) -> &Info<'_> {
+        self.shared.info()
     }
 
     /// The model has a Jacobian, except over double-doubles: these are for reference solutions, which use explicit
@@ -281,7 +286,7 @@ pub(crate) struct WithoutJacobian<M>(pub(crate) M);
 impl<T: Real, E: Execute<T>> Machine<T, E> {
     fn new(shared: Arc<Shared>, execute: E) -> Self {
         let room: usize = Method::ALL.map(|method| shared.length(method)).iter().sum();
-        let defaults = shared.info.parameters.iter();
+        let defaults = shared.info().parameters.iter();
         let facts = &shared.lists.facts;
         let needed = shared.lists.functions.iter().any(|of| of.accelerations);
         let given = match needed {
@@ -502,8 +507,8 @@ pub(crate) fn derive<T: Real>(execute: &mut impl Execute<T>, parameters: &[T], d
 macro_rules! dynamics {
     ($holder:ty, $jacobian:item) => {
 impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
-    fn info(&self) -> &'static Info {
-        self.machine().shared.info
+    fn info(&self) -> &Info<'_> {
+        self.machine().shared.info()
     }
 
     fn parameter(&self, index: usize) -> Option<T> {
@@ -515,13 +520,13 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
     }
 
     fn derivative(&self, t: T, y: &[T], rate: &mut [T]) {
-        let (varying, memory) = rate.split_at_mut(self.machine().shared.info.varying_length());
+        let (varying, memory) = rate.split_at_mut(self.machine().shared.info().varying_length());
         self.machine().at(Method::Derivative, t, y, varying);
         memory.fill(T::from_f64(0.0));
     }
 
     fn coordinate_rates(&self, y: &[T], rate: &mut [T]) {
-        let coordinates = &mut rate[..self.machine().shared.info.coordinates.len()];
+        let coordinates = &mut rate[..self.machine().shared.info().coordinates.len()];
         self.machine().at(Method::CoordinateRates, T::from_f64(0.0), y, coordinates);
     }
 
@@ -535,7 +540,7 @@ impl<T: Real, E: Execute<T>> Dynamics<T> for $holder {
 
     fn smallest_pivot(&self, t: T, y: &[T]) -> Option<(usize, T)> {
         let mut results = self.machine().results.borrow_mut();
-        let pivots = &mut results[..self.machine().shared.info.pivots.len()];
+        let pivots = &mut results[..self.machine().shared.info().pivots.len()];
         self.machine().at(Method::Pivots, t, y, pivots);
         let pivots = pivots.iter().copied().enumerate();
         // the sign of a NaN depends on the processor, so it decides nothing
@@ -639,9 +644,9 @@ impl<T: Real, E: Execute<T>> Adjustable<T> for Machine<T, E> {
 
     fn want_outputs(&mut self, wanted: &[usize]) {
         // each valid index once
-        let all = 0..self.shared.info.outputs.len();
+        let all = 0..self.shared.info().outputs.len();
         let wanted: Box<[usize]> = all.filter(|index| wanted.contains(index)).collect();
-        self.wanted = (wanted.len() < self.shared.info.outputs.len()).then_some(wanted);
+        self.wanted = (wanted.len() < self.shared.info().outputs.len()).then_some(wanted);
         self.execute.forget_outputs();
     }
 }

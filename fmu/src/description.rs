@@ -105,7 +105,11 @@ impl Xml {
 
     /// The units of variables, with their base units.
     fn units(&mut self, variables: &[Variable]) {
-        let units: BTreeSet<&str> = variables.iter().map(|of| of.unit).chain(["s"]).collect();
+        let units: BTreeSet<&str> = variables
+            .iter()
+            .map(|of| of.unit.as_str())
+            .chain(["s"])
+            .collect();
         self.line(1, "<UnitDefinitions", &[], ">");
         for unit in units.into_iter().filter(|unit| !unit.is_empty()) {
             self.line(2, "<Unit", &[("name", unit)], ">");
@@ -161,7 +165,10 @@ impl Xml {
                 ],
             };
             let optional = [
-                ("unit", Some(variable.unit).filter(|unit| !unit.is_empty())),
+                (
+                    "unit",
+                    Some(variable.unit.as_str()).filter(|unit| !unit.is_empty()),
+                ),
                 ("min", min.as_deref()),
                 ("max", max.as_deref()),
                 ("start", start.as_deref()),

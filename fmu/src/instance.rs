@@ -84,7 +84,7 @@ impl Instance {
         Ok(instance)
     }
 
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         self.engine.info()
     }
 
@@ -140,7 +140,7 @@ impl Instance {
         };
         let start = self.setting.start.as_ref().map(|(_, state)| &state[..]);
         let running = Running::new(&self.engine, &self.values, start, &settings);
-        self.running = Some(running.map_err(|failure| failure.to_string())?);
+        self.running = Some(running?);
         self.shown = None;
         self.advance_to(self.begin)
     }
@@ -235,7 +235,8 @@ impl Instance {
 
     /// State and outputs at the present values.
     fn show(&mut self) -> Result<&Shown, Message> {
-        let (info, engine) = (self.info(), &self.engine);
+        let engine = &self.engine;
+        let info = engine.info();
         let shown = match (self.shown.take(), &self.running) {
             (Some(shown), _) => shown,
             (None, Some(_)) => return Err("the run could not begin".to_owned()),
@@ -268,7 +269,7 @@ impl Instance {
     /// A value reference that is none; what is no parameter or input; a parameter during a run; a value that the model
     /// refuses. Nothing is set then.
     pub fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Message> {
-        let info = self.info();
+        let info = self.engine.info();
         let mut wanted = self.values.clone();
         for (&reference, &value) in references.iter().zip(values) {
             let name = || self.variables[reference as usize - 1].name.clone();
@@ -317,7 +318,7 @@ pub fn starts(info: &Info, setting: &Setting) -> Vec<f64> {
     info.parameters.iter().map(of).collect()
 }
 
-fn words(info: &'static Info, refusal: Refusal) -> Message {
+fn words(info: &Info<'_>, refusal: Refusal) -> Message {
     let mut words = String::new();
     let _ = refusal.write(info, &mut words);
     words

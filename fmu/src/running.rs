@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "a run borrows its model, its inputs, its watch and its memory; here they live together"
+    reason = "a run borrows its engine, its model, its inputs, its watch and its memory; here they live together"
 )]
 
 use bryant_engine::Engine;
@@ -48,17 +48,18 @@ impl Running {
     /// A run of a model from a state, or from that of its parameters.
     ///
     /// # Errors
-    /// As [`Run::new`].
+    /// As [`Run::new`], in words.
     pub fn new(
         engine: &Engine,
         parameters: &[f64],
         start: Option<&[f64]>,
         settings: &Settings,
-    ) -> Result<Self, Failure> {
-        let info = engine.info();
+    ) -> Result<Self, String> {
         let engine = Held::new(Box::new(engine.clone()));
-        // SAFETY: this is the only reference to the engine, and the engine is dropped last
-        let model: Box<dyn Adjustable<f64>> = unsafe { engine.get() }.in_double();
+        // SAFETY: there are only shared references to the engine, and the engine is dropped last
+        let of: &'static Engine = unsafe { engine.get() };
+        let info = of.info();
+        let model: Box<dyn Adjustable<f64>> = of.in_double();
         let model = Held::new(Box::new(model));
         let memory = Held::new(vec![0.0; workspace_length(info, settings)].into_boxed_slice());
         let room = Held::new(vec![0.0; Driven::<f64>::length(info)].into_boxed_slice());
@@ -71,7 +72,7 @@ impl Running {
             Some(start) => state.copy_from_slice(start),
             None => inner.initial_state(&mut state),
         }
-        let driven = Held::new(Box::new(Driven::new(&mut **inner, room_of)));
+        let driven = Held::new(Box::new(Driven::new(&mut **inner, info, room_of)));
         // SAFETY: the run has the watch until the run is dropped; the inputs are only shared from here on
         let (shared, watched) = unsafe { (&*driven.get(), watch.get()) };
         let run = match info.inputs().next() {
@@ -79,7 +80,7 @@ impl Running {
             Some(_) => Run::driven(memory_of, shared, &state, settings, Some(watched)),
         };
         Ok(Running {
-            run: Some(run?),
+            run: Some(run.map_err(|failure| failure.to_string())?),
             driven,
             watch,
             _model: model,
@@ -93,7 +94,7 @@ impl Running {
     ///
     /// # Errors
     /// As [`Run::advance_to`].
-    pub fn advance_to(&mut self, t: f64) -> Result<Sample<'_, f64>, Failure> {
+    pub fn advance_to(&mut self, t: f64) -> Result<Sample<'_, f64>, Failure<'_>> {
         match &mut self.run {
             Some(run) => run.advance_to(t),
             None => unreachable!("a run is ended once, with its value"),

@@ -22,7 +22,7 @@ pub struct Variable {
     /// Its name, which no other has.
     pub name: String,
     /// SI unit, "" for a pure number.
-    pub unit: &'static str,
+    pub unit: String,
     /// What it is.
     pub of: Of,
 }
@@ -56,6 +56,7 @@ pub fn variables(info: &Info) -> Vec<Variable> {
         while !taken.insert(name.clone()) {
             name = format!("{kind} {name}");
         }
+        let unit = unit.to_owned();
         variables.push(Variable { name, unit, of });
     }
     variables

@@ -100,7 +100,7 @@ impl Pool {
 }
 
 /// A name, a unit, a default, the limits, and whether it is an input.
-type Parameter = (&'static str, &'static str, f64, f64, f64, bool);
+type Parameter<'a> = (&'a str, &'a str, f64, f64, f64, bool);
 
 #[pymethods]
 impl Model {
@@ -140,12 +140,12 @@ impl Model {
     }
 
     #[getter]
-    fn name(&self) -> &'static str {
+    fn name(&self) -> &str {
         self.pool.engine.info().name
     }
 
     #[getter]
-    fn digest(&self) -> &'static str {
+    fn digest(&self) -> &str {
         self.pool.engine.info().digest
     }
 
@@ -156,7 +156,7 @@ impl Model {
 
     /// Names and units of q, v, z and m.
     #[getter]
-    fn state(&self) -> [Vec<(&'static str, &'static str)>; 4] {
+    fn state(&self) -> [Vec<(&str, &str)>; 4] {
         let info = self.pool.engine.info();
         let mut from = 0;
         [
@@ -173,13 +173,13 @@ impl Model {
     }
 
     #[getter]
-    fn outputs_named(&self) -> Vec<(&'static str, &'static str)> {
+    fn outputs_named(&self) -> Vec<(&str, &str)> {
         let outputs = self.pool.engine.info().outputs.iter();
         outputs.map(|of| (of.name, of.unit)).collect()
     }
 
     #[getter]
-    fn parameters_named(&self) -> Vec<Parameter> {
+    fn parameters_named(&self) -> Vec<Parameter<'_>> {
         let parameters = self.pool.engine.info().parameters.iter();
         let facts = parameters.map(|of| (of.name, of.unit, of.default, of.min, of.max, of.input));
         facts.collect()

@@ -76,6 +76,7 @@ impl Simulation {
         }
         let (ask, asked) = channel();
         let (answer, answers) = channel();
+        let (outputs, inputs) = (info.outputs.len(), info.inputs().count());
         let run = move || {
             let setting = Setting {
                 parameters,
@@ -90,8 +91,8 @@ impl Simulation {
         };
         std::thread::Builder::new().spawn(run).map_err(wrong)?;
         Ok(Simulation {
-            outputs: info.outputs.len(),
-            inputs: info.inputs().count(),
+            outputs,
+            inputs,
             lines: Mutex::new(Some(Lines {
                 ask,
                 answer: answers,
@@ -177,7 +178,7 @@ fn run(
     answer: &Sender<Result<Answer, String>>,
 ) -> Result<(), String> {
     let mut model = engine.in_double();
-    let info = model.info();
+    let info = engine.info();
     model.set_parameters(&setting.parameters);
     let mut settings = Settings::of(info);
     settings.start = setting.time;
@@ -193,7 +194,7 @@ fn run(
     }
     let mut memory = vec![0.0; workspace_length(info, &settings)];
     let mut parameters = vec![0.0; Driven::<f64>::length(info)];
-    let model = Driven::new(&mut *model, &mut parameters);
+    let model = Driven::new(&mut *model, info, &mut parameters);
     let mut watch = Watch::new(info, SHARE);
     let mut run = Run::driven(&mut memory, &model, &start, &settings, Some(&mut watch))
         .map_err(|failure| failure.to_string())?;

@@ -61,7 +61,7 @@ use bryant_runtime::{
 
 bryant_runtime::use_nalgebra!(SMatrix, SVector);
 
-const _: () = bryant_runtime::check_generated_code_version(18);
+const _: () = bryant_runtime::check_generated_code_version(19);
 
 /// Length of q.
 pub const COORDINATES: usize = 2;
@@ -441,7 +441,7 @@ impl<T: Real> Model<T> for Mechanism<T> {
     type With<U: Real> = Mechanism<U>;
     type Parameters = Parameters<T>;
     type State = [T; STATE];
-    const INFO: &'static Info = &INFO;
+    const INFO: &'static Info<'static> = &INFO;
     #[inline(always)]
     fn new(parameters: Parameters<T>) -> Self {
         Self::new(parameters)

@@ -64,7 +64,7 @@ macro_rules! accessor {
 /// length an implementation may panic. Nothing here allocates after the model is made.
 pub trait Dynamics<T: Real> {
     /// Names, units and sizes.
-    fn info(&self) -> &'static Info;
+    fn info(&self) -> &Info<'_>;
     /// The value of a parameter \[SI\], by its index in [`Info::parameters`]; `None` for an index beyond the last.
     fn parameter(&self, index: usize) -> Option<T>;
     /// The state at which a run starts.
@@ -128,7 +128,7 @@ pub trait Adjustable<T: Real>: Dynamics<T> {
 #[cfg(feature = "std")]
 pub trait Family {
     /// Names, units and sizes of all of them.
-    fn info(&self) -> &'static Info;
+    fn info(&self) -> &Info<'_>;
     /// The model over a scalar. The caller may send it to another thread before it is used.
     fn over<T: Real>(&self) -> std::boxed::Box<dyn Adjustable<T> + '_>;
     /// The model over a scalar for a batch. A batch calls neither the Jacobian nor the smallest pivot, so these may
@@ -170,7 +170,7 @@ impl<T: Real> Schedule<T> for std::boxed::Box<dyn Adjustable<T> + '_> {
     }
 }
 
-impl Info {
+impl Info<'_> {
     /// Number of entries of the state: q, v, z and m.
     pub const fn state_length(&self) -> usize {
         self.kinds.len()
@@ -338,7 +338,7 @@ impl<M> OwnedDifferentiable<M> {
 macro_rules! dynamics {
     ($holder:ty, $jacobian:expr, $pivots:literal) => {
         impl<T: Real, M: Model<T>> Dynamics<T> for $holder {
-            fn info(&self) -> &'static Info {
+            fn info(&self) -> &Info<'_> {
                 M::INFO
             }
 
@@ -519,7 +519,7 @@ impl<M: Model<f64>> Default for Compiled<M> {
 
 #[cfg(feature = "std")]
 impl<M: Model<f64>> Family for Compiled<M> {
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         M::INFO
     }
 

@@ -6,13 +6,13 @@ use core::fmt;
 
 /// A run that could not go on. All samples before [`Failure::t`] were delivered.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Failure {
+pub struct Failure<'a> {
     /// Time of the failure \[s\].
     pub t: f64,
     /// The reason.
     pub reason: Reason,
     /// The model, for its names.
-    pub info: &'static Info,
+    pub info: &'a Info<'a>,
 }
 
 /// Why a run could not go on.
@@ -152,9 +152,24 @@ pub struct Setting {
     pub must: &'static str,
 }
 
-impl Failure {
+impl<'a> Failure<'a> {
+    /// The same failure with the names of `info`, which may live longer than the model of the run: for a function that
+    /// makes a [`Direct`](crate::Direct) and returns the failure of its run, [`Model::INFO`](crate::Model::INFO).
+    ///
+    /// # Panics
+    /// If `info` has another [digest](Info::digest), so is of another model.
+    pub fn with_info<'b>(self, info: &'b Info<'b>) -> Failure<'b> {
+        assert_eq!(
+            self.info.digest, info.digest,
+            "the failure is not one of {}",
+            info.name
+        );
+        let Failure { t, reason, .. } = self;
+        Failure { t, reason, info }
+    }
+
     /// Name of the coordinate or velocity that failed, if there is one.
-    pub fn coordinate(&self) -> Option<&'static str> {
+    pub fn coordinate(&self) -> Option<&'a str> {
         match self.reason {
             Reason::NonFinite {
                 of: Quantity::Output,
@@ -195,7 +210,7 @@ impl Failure {
         }
         // whether there is a curve that must not be left
         let curves = self.info.curves.iter();
-        let error = |curve: &crate::CurveInfo| curve.extrapolate == Extrapolate::Error;
+        let error = |curve: &crate::CurveInfo<'_>| curve.extrapolate == Extrapolate::Error;
         let curves = self.info.time_ends || curves.into_iter().any(error);
         match self.reason {
             Reason::NonFinite {
@@ -240,9 +255,9 @@ impl Failure {
     }
 }
 
-impl Failure {
+impl<'a> Failure<'a> {
     /// "coordinate", "velocity" or another noun, and the name of an entry of the state.
-    fn entry(&self, index: usize) -> (&'static str, &'static str) {
+    fn entry(&self, index: usize) -> (&'static str, &'a str) {
         let name = self.info.state_name(index).unwrap_or("?");
         (self.info.state_noun(index), name)
     }
@@ -282,7 +297,7 @@ impl Failure {
 
     /// Writes what limited the last steps of a run that took too many.
     fn write_limit(&self, f: &mut fmt::Formatter<'_>, cause: Cause, step: f64) -> fmt::Result {
-        let name = |names: &[&'static str], index: usize| names.get(index).copied().unwrap_or("?");
+        let name = |names: &[&'a str], index: usize| names.get(index).copied().unwrap_or("?");
         match cause {
             Cause::Tolerance(index) => {
                 let (kind, name) = self.entry(index);
@@ -323,7 +338,7 @@ impl Failure {
     }
 }
 
-impl fmt::Display for Failure {
+impl fmt::Display for Failure<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(written) = self.write_refusal(f) {
             return written;
@@ -363,4 +378,4 @@ impl fmt::Display for Failure {
     }
 }
 
-impl core::error::Error for Failure {}
+impl core::error::Error for Failure<'_> {}

@@ -14,7 +14,7 @@ impl CurveKind {
     }
 }
 
-impl CurveInfo {
+impl CurveInfo<'_> {
     /// True if this entry belongs to the laws about x, y and z of a joint.
     pub(crate) fn is_of_angles(&self) -> bool {
         self.middle().is_some()
@@ -23,11 +23,13 @@ impl CurveInfo {
     /// True if this [angle](CurveKind::HalfTurn) belongs to the same law as a [bearing](CurveKind::Bearing): the angle
     /// leaps where the bearing does, because it is not defined there. "bushing m about x" belongs to "bushing m",
     /// "joint man/head about x" to "joint man/head about x, y and z", "joint man/head torsion" to "joint man/head".
-    pub(crate) fn leaps_with(&self, bearing: &CurveInfo) -> bool {
-        let owner = |name: &'static str| match name.strip_suffix(" torsion") {
-            Some(owner) => Some(owner),
-            None => name.rsplit_once(" about ").map(|(owner, _)| owner),
-        };
+    pub(crate) fn leaps_with(&self, bearing: &CurveInfo<'_>) -> bool {
+        fn owner(name: &str) -> Option<&str> {
+            match name.strip_suffix(" torsion") {
+                Some(owner) => Some(owner),
+                None => name.rsplit_once(" about ").map(|(owner, _)| owner),
+            }
+        }
         let of_bearing = match bearing.is_of_angles() {
             true => owner(bearing.name),
             false => Some(bearing.name),

@@ -48,7 +48,7 @@
 //! # mod arm { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/doc/double-pendulum.rs")); }
 //! use bryant_runtime::{Failure, Settings, simulate};
 //!
-//! # fn main() -> Result<(), Failure> {
+//! # fn main() -> Result<(), Failure<'static>> {
 //! let model = arm::Mechanism::<f64>::new(arm::Parameters { brake: 0.01 });
 //! let mut highest = f64::NEG_INFINITY;
 //! simulate(&model, &Settings::of(&arm::INFO), &mut |sample| {

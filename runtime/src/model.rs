@@ -158,7 +158,7 @@ pub trait Model<T: Real>: Sized {
     /// y: `[T; STATE]`, with q, v, z and m together.
     type State: Vector<T>;
     /// Names, units, sizes.
-    const INFO: &'static Info;
+    const INFO: &'static Info<'static>;
 
     /// Makes the model with these parameters. Everything that depends on parameters alone is computed here, once.
     fn new(parameters: Self::Parameters) -> Self;
@@ -246,66 +246,67 @@ pub trait ParameterSet<T>: Clone {
     fn set(&mut self, index: usize, value: T) -> bool;
 }
 
-/// Everything known of a model without evaluating it.
+/// Everything known of a model without evaluating it. It borrows its names: those of generated code last as long as the
+/// program, those of a model that is read at run time as long as that model.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Info {
+pub struct Info<'a> {
     /// Name of the model.
-    pub name: &'static str,
+    pub name: &'a str,
     /// SHA-256 of the content of the model, hexadecimal. It does not depend on how the model is written.
-    pub digest: &'static str,
+    pub digest: &'a str,
     /// 2 or 3: a planar or a spatial model.
     pub dimension: u8,
     /// Names of q, in order ("man.x", "man/head.angle", "man/head.w").
-    pub coordinates: &'static [&'static str],
+    pub coordinates: &'a [&'a str],
     /// Names of v, in order.
-    pub velocities: &'static [&'static str],
+    pub velocities: &'a [&'a str],
     /// The kind of each entry of the state, in its order: q, v, z, m.
-    pub kinds: &'static [StateKind],
+    pub kinds: &'a [StateKind],
     /// SI unit of each entry of the state, in its order; "" for a pure number, such as a component of a quaternion.
-    pub units: &'static [&'static str],
+    pub units: &'a [&'a str],
     /// Names of z, the continuous states of force laws, in order ("muscle biceps: activation").
-    pub auxiliaries: &'static [&'static str],
+    pub auxiliaries: &'a [&'a str],
     /// Names of m, the discrete states: first the charts of elements ("man/head: chart"), then the memory of force laws
     /// ("contact seat: permanent set").
-    pub memory: &'static [&'static str],
+    pub memory: &'a [&'a str],
     /// Names of the event functions ("belt lap: locks").
-    pub event_functions: &'static [&'static str],
+    pub event_functions: &'a [&'a str],
     /// Names of the non-smooth switching functions ("belt lap: goes taut").
-    pub kinks: &'static [&'static str],
+    pub kinks: &'a [&'a str],
     /// Names of the onsets: first those of laws ("contact hit: touches"), then those of corners ("contact hit: corner
     /// of the curve").
-    pub onsets: &'static [&'static str],
+    pub onsets: &'a [&'a str],
     /// Number of the onsets that are corners of curves; they come last.
     pub corners: usize,
     /// Longest allowed step of a method with error control \[s\]. A user force may begin to act at any time without an
     /// onset. Infinite if there is no such force.
     pub longest_step: f64,
     /// Names of the effects that do work ("contact seat: friction").
-    pub powers: &'static [&'static str],
+    pub powers: &'a [&'a str],
     /// The watched curves of the state, the bearings of joints that bend, and the directions in which pairs of
     /// ellipsoids push.
-    pub curves: &'static [CurveInfo],
+    pub curves: &'a [CurveInfo<'a>],
     /// True if a curve of time ends, and must not be left (`extrapolate: error`).
     pub time_ends: bool,
     /// Elements whose inertia may vanish in some position ("man/head").
-    pub pivots: &'static [&'static str],
+    pub pivots: &'a [&'a str],
     /// Conditions that parameters must satisfy ("`mass` of man/head must be positive").
-    pub conditions: &'static [&'static str],
+    pub conditions: &'a [&'a str],
     /// Whether the reference joint of some system is free, so that there is a momentum to balance.
     pub free: bool,
     /// Headings and units of the output columns.
-    pub outputs: &'static [OutputInfo],
+    pub outputs: &'a [OutputInfo<'a>],
     /// Names, units and bounds of the parameters.
-    pub parameters: &'static [ParameterInfo],
+    pub parameters: &'a [ParameterInfo<'a>],
     /// Times at which a curve of time has a kink, increasing \[s\]: no step may cross one.
-    pub breakpoints: &'static [f64],
+    pub breakpoints: &'a [f64],
     /// Length of a run \[s\].
     pub duration: f64,
     /// Time between samples \[s\].
     pub every: f64,
 }
 
-impl Info {
+impl<'a> Info<'a> {
     /// The noun for an entry of the state: a coordinate, a velocity or a state of a force law.
     pub fn state_noun(&self, index: usize) -> &'static str {
         let coordinates = self.coordinates.len();
@@ -317,12 +318,12 @@ impl Info {
     }
 
     /// SI unit of an entry of the state, coordinates first, "" for a pure number; `None` beyond the last.
-    pub fn state_unit(&self, index: usize) -> Option<&'static str> {
+    pub fn state_unit(&self, index: usize) -> Option<&'a str> {
         self.units.get(index).copied()
     }
 
     /// Name of an entry of the state, coordinates first, `None` beyond the last.
-    pub fn state_name(&self, index: usize) -> Option<&'static str> {
+    pub fn state_name(&self, index: usize) -> Option<&'a str> {
         self.coordinates
             .iter()
             .chain(self.velocities)
@@ -378,11 +379,11 @@ pub enum CurveKind {
 
 /// A curve at an argument that depends on the state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurveInfo {
+pub struct CurveInfo<'a> {
     /// Name of its effect ("joint man/head: elastic").
-    pub name: &'static str,
+    pub name: &'a str,
     /// SI unit of its abscissa; "" for a pure number.
-    pub unit: &'static str,
+    pub unit: &'a str,
     /// Its first abscissa.
     pub first: f64,
     /// Its last abscissa.
@@ -397,7 +398,7 @@ pub struct CurveInfo {
     pub kind: CurveKind,
 }
 
-impl CurveInfo {
+impl CurveInfo<'_> {
     /// True if this entry belongs to a bushing: its name begins with the kind of its law.
     pub(crate) fn is_of_bushing(&self) -> bool {
         self.name.starts_with("bushing ")
@@ -469,20 +470,20 @@ impl CurveInfo {
 
 /// A column of the output table.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct OutputInfo {
+pub struct OutputInfo<'a> {
     /// Heading.
-    pub name: &'static str,
+    pub name: &'a str,
     /// SI unit, "" for a pure number.
-    pub unit: &'static str,
+    pub unit: &'a str,
 }
 
 /// An adjustable number.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ParameterInfo {
+pub struct ParameterInfo<'a> {
     /// Name.
-    pub name: &'static str,
+    pub name: &'a str,
     /// SI unit, "" where unknown.
-    pub unit: &'static str,
+    pub unit: &'a str,
     /// Default (SI).
     pub default: f64,
     /// Smallest value allowed (SI), −∞ where unbounded.
@@ -493,7 +494,7 @@ pub struct ParameterInfo {
     pub input: bool,
 }
 
-impl Info {
+impl Info<'_> {
     /// The inputs, as indices into [`Info::parameters`].
     pub fn inputs(&self) -> impl Iterator<Item = usize> {
         let parameters = self.parameters.iter().enumerate();

@@ -125,11 +125,11 @@ pub trait Real:
     /// this crate, and crates that use it only call it.
     #[cfg(not(bryant_equations))]
     #[doc(hidden)]
-    fn march(
-        run: &mut Run<'_, '_, Self>,
+    fn march<'a>(
+        run: &mut Run<'a, '_, Self>,
         sink: &mut Receiver<'_, Self>,
         observer: Option<&mut Observer<'_>>,
-    ) -> Result<Report, Failure> {
+    ) -> Result<Report, Failure<'a>> {
         run.go(sink, observer)
     }
     /// The value without its derivatives, if it has any.
@@ -446,11 +446,11 @@ primitive!(
     // a function without type parameters of its own, so that it is compiled in this crate and nowhere else
     #[cfg(not(bryant_equations))]
     #[inline(never)]
-    fn march(
-        run: &mut Run<'_, '_, Self>,
+    fn march<'a>(
+        run: &mut Run<'a, '_, Self>,
         sink: &mut Receiver<'_, Self>,
         observer: Option<&mut Observer<'_>>,
-    ) -> Result<Report, Failure> {
+    ) -> Result<Report, Failure<'a>> {
         run.go(sink, observer)
     }
 );

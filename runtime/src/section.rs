@@ -80,7 +80,7 @@ macro_rules! declared {
             }
         }
 
-        impl Info {
+        impl Info<'_> {
             /// The number of results of a section.
             pub const fn length(&self, section: Section) -> usize {
                 match section {

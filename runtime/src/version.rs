@@ -2,7 +2,7 @@
 
 /// Version of the contract between generated code and this crate. It changes whenever code generated for one version
 /// would not work with another.
-pub const GENERATED_CODE_VERSION: u32 = 18;
+pub const GENERATED_CODE_VERSION: u32 = 19;
 
 /// Stops compilation if generated code and this crate do not belong together. Generated modules contain
 /// `const _: () = bryant_runtime::check_generated_code_version(VERSION);` with the version that they were generated

@@ -10,22 +10,22 @@ use std::sync::OnceLock;
 
 /// A model over `f64`, compiled by rustc and loaded.
 #[derive(Debug)]
-pub struct RustcModel {
+pub struct RustcModel<'i> {
     library: Compiled,
-    info: &'static Info,
+    info: &'i Info<'i>,
     /// The name of its user forces for messages.
     what: &'static Named,
     name: String,
     failure: OnceLock<String>,
 }
 
-impl RustcModel {
+impl<'i> RustcModel<'i> {
     /// Compiles a model for this machine's processor, unless it is in the cache, and loads it. `source` writes the
     /// generated module; `info` belongs to the same model. A Jacobian is needed by Rosenbrock methods, and makes
     /// compilation three times as long. `stage` is called before each step that takes time.
     pub fn of(
         unit: Unit<'_>,
-        info: &'static Info,
+        info: &'i Info<'i>,
         jacobian: bool,
         source: &mut dyn FnMut() -> String,
         stage: &mut dyn FnMut(Stage),
@@ -50,7 +50,7 @@ impl RustcModel {
     }
 
     /// Names, units and sizes.
-    pub fn info(&self) -> &'static Info {
+    pub fn info(&self) -> &'i Info<'i> {
         self.info
     }
 
@@ -80,7 +80,7 @@ impl RustcModel {
 
 /// The model with one set of parameters.
 struct At<'a> {
-    of: &'a RustcModel,
+    of: &'a RustcModel<'a>,
     model: CompiledModel<'a>,
 }
 
@@ -106,7 +106,7 @@ impl At<'_> {
 }
 
 impl Dynamics<f64> for At<'_> {
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         self.of.info
     }
 

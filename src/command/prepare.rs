@@ -101,12 +101,12 @@ pub fn users_of(
 
 /// The model of `found`, generated as Rust and compiled as a whole by rustc, for comparison with the engine. A Jacobian
 /// is needed by rodas5 and makes compilation three times as long.
-pub fn by_rustc(
+pub fn by_rustc<'e>(
     found: &Found,
-    engine: &Engine,
+    engine: &'e Engine,
     jacobian: bool,
     terminal: &Terminal,
-) -> Result<RustcModel, Error> {
+) -> Result<RustcModel<'e>, Error> {
     let model = &found.model;
     let sources = found.user_sources()?;
     let texts: Vec<Text<'_>> = sources

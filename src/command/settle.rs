@@ -203,7 +203,7 @@ impl Arguments {
         found: &Found,
         values: &[f64],
         settled: &Settled,
-        info: &'static Info,
+        info: &Info<'_>,
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
         let state = match self.yaml {

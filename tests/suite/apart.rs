@@ -306,6 +306,7 @@ fn alike(ours: &mut dyn Adjustable<f64>, theirs: &mut dyn Adjustable<f64>, withi
         for k in 0..parameters.len() + 1 {
             assert_eq!(ours.parameter(k), theirs.parameter(k));
         }
+        let info = ours.info();
         ours.initial_state(&mut y);
         let mut other = vec![0.0; y.len()];
         theirs.initial_state(&mut other);
@@ -370,7 +371,7 @@ fn an_engine_calls_them() {
     assert!(Engine::with_functions(lists, None).is_err());
 }
 
-fn rustc_model(name: &str) -> RustcModel {
+fn rustc_model(name: &str) -> RustcModel<'static> {
     let path = bundled(name);
     let (model, sources) = read(&path);
     let texts: Vec<Text<'_>> = sources

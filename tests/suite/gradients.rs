@@ -14,7 +14,7 @@ fn within(tolerance: f64) -> Pace {
     Pace::Adaptive(Tolerances::of(tolerance))
 }
 
-fn position(mut names: impl Iterator<Item = &'static str>, name: &str) -> usize {
+fn position<'a>(mut names: impl Iterator<Item = &'a str>, name: &str) -> usize {
     names
         .position(|known| known == name)
         .expect("one of the model's")

@@ -37,14 +37,14 @@ fn cart(forces: &str) -> Engine {
 }
 
 /// Runs a model; before each of the times, `control` is given the outputs and sets the inputs. The outputs at the last time.
-fn driven(
-    engine: &Engine,
+fn driven<'e>(
+    engine: &'e Engine,
     tolerance: f64,
     times: &[f64],
     mut control: impl FnMut(usize, &[f64]) -> [f64; 2],
-) -> Result<Vec<f64>, Failure> {
+) -> Result<Vec<f64>, Failure<'e>> {
     let mut model = engine.in_double();
-    let info = model.info();
+    let info = engine.info();
     let mut settings = Settings::of(info);
     if let Pace::Adaptive(adaptive) = &mut settings.method.pace {
         *adaptive = Adaptive {
@@ -56,11 +56,13 @@ fn driven(
     model.initial_state(&mut start);
     let mut memory = vec![0.0; workspace_length(info, &settings)];
     let mut parameters = vec![0.0; Driven::<f64>::length(info)];
-    let model = Driven::new(&mut *model, &mut parameters);
+    let model = Driven::new(&mut *model, info, &mut parameters);
     let mut watch = Watch::new(info, 0.02);
     let watched = Some(&mut watch);
-    let mut run = Run::driven(&mut memory, &model, &start, &settings, watched)?;
-    let mut outputs = run.advance_to(0.0)?.outputs.to_vec();
+    let of_model = |failure: Failure<'_>| failure.with_info(info);
+    let run = Run::driven(&mut memory, &model, &start, &settings, watched);
+    let mut run = run.map_err(of_model)?;
+    let mut outputs = run.advance_to(0.0).map_err(of_model)?.outputs.to_vec();
     for (k, &t) in times.iter().enumerate() {
         let inputs = control(k, &outputs);
         model.set_inputs(&inputs).map_err(|refusal| Failure {
@@ -68,7 +70,7 @@ fn driven(
             reason: Reason::Refused(refusal),
             info,
         })?;
-        outputs = run.advance_to(t)?.outputs.to_vec();
+        outputs = run.advance_to(t).map_err(of_model)?.outputs.to_vec();
     }
     let doubts: Vec<String> = watch.diagnostics().map(|d| format!("{d:?}")).collect();
     assert!(doubts.is_empty(), "{doubts:?}");
@@ -136,7 +138,7 @@ fn limits_hold_and_what_is_refused_changes_nothing() {
     let engine = cart("forces: [{ joint: cart/body, motor: push }]\n");
     let mut model = engine.in_double();
     let mut parameters = [0.0; 4];
-    let driven = Driven::new(&mut *model, &mut parameters);
+    let driven = Driven::new(&mut *model, engine.info(), &mut parameters);
     driven.set_inputs(&[3.0, 1.0]).unwrap();
     for bad in [101.0, -100.5, f64::INFINITY, f64::NAN] {
         let refused = driven.set_inputs(&[bad, 1.0]).unwrap_err();
@@ -163,7 +165,7 @@ fn conditions_hold_also_for_inputs() {
     );
     let mut model = engine.in_double();
     let mut parameters = [0.0; 4];
-    let driven = Driven::new(&mut *model, &mut parameters);
+    let driven = Driven::new(&mut *model, engine.info(), &mut parameters);
     let rate = || {
         let mut rate = [0.0; 2];
         bryant_runtime::Dynamics::derivative(&driven, 0.5, &[0.0, 0.0], &mut rate);

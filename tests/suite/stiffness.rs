@@ -68,7 +68,8 @@ fn run(method: Method, locate: bool, from: Option<(&State, f64)>) -> Result<Run,
         outputs.push(sample.outputs.to_vec());
         ControlFlow::Continue(())
     };
-    let report = simulate::run(&Differentiable(&model), &start, &settings, None, sink);
+    let model = Differentiable(&model);
+    let report = simulate::run(&model, &start, &settings, None, sink);
     let report = report.map_err(|failure| failure.to_string())?;
     Ok(Run {
         states,

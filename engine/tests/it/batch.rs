@@ -236,8 +236,15 @@ fn what_does_not_fit_or_is_not_allowed_is_refused_and_changes_nothing() {
         assert_eq!(results, [7.0; 2]);
         found.unwrap_err()
     };
-    let info = engine.info();
-    let of_row = |row, refusal| Misfit::Refused { row, refusal, info };
+    let of_row = |row, refusal: Refusal| {
+        let mut message = String::new();
+        refusal.write(engine.info(), &mut message).unwrap();
+        Misfit::Refused {
+            row,
+            refusal,
+            message,
+        }
+    };
     assert_eq!(
         refused(&mut batch, &[1.0, 101.0]),
         of_row(1, Refusal::OutOfLimits(1, 101.0))

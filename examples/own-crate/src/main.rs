@@ -10,7 +10,7 @@ use double_pendulum::{INFO, Mechanism, Parameters, coordinates, outputs};
 use std::hint::black_box;
 use std::time::Instant;
 
-fn main() -> Result<(), Failure> {
+fn main() -> Result<(), Failure<'static>> {
     let pendulum = Mechanism::new(Parameters { brake: 0.01 });
 
     // what a controller or a sampler does

@@ -10,6 +10,8 @@ use crate::{Adjustable, Dual, Family, Info, Real, Schedule};
 
 /// The models of one family that a batch needs.
 pub(super) struct Models<'a, T: Several> {
+    /// Names, units and sizes of all of them.
+    pub(super) info: &'a Info<'a>,
     /// The model for all lanes.
     pub(super) all: Box<dyn Adjustable<T> + 'a>,
     /// The model with lanes in another order, to evaluate several places of one lane at once.
@@ -23,6 +25,7 @@ pub(super) struct Models<'a, T: Several> {
 impl<'a, T: Several> Models<'a, T> {
     fn new(family: &'a impl Family, one: Option<Box<dyn Schedule<T::One> + 'a>>) -> Self {
         Models {
+            info: family.info(),
             all: family.for_batch::<T>(),
             packed: family.for_batch::<T>(),
             lanes: schedules(family, T::LANES),
@@ -34,11 +37,6 @@ impl<'a, T: Several> Models<'a, T> {
     pub(super) fn of(family: &'a impl Family) -> Self {
         let one = (T::PARTS > 1).then(|| family.schedule::<T::One>());
         Models::new(family, one)
-    }
-
-    /// Names, units and sizes.
-    pub(super) fn info(&self) -> &'static Info {
-        self.all.info()
     }
 }
 

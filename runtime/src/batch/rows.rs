@@ -465,7 +465,7 @@ impl<'a, S: Real> Table<'a, S> {
     }
 
     fn run<T: Several<One = S>>(&mut self, models: Models<'_, T>) {
-        self.prepare(models.info());
+        self.prepare(models.info);
         run_models(models, &self.job.settings, self);
     }
 

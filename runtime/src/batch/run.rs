@@ -134,7 +134,7 @@ const LINGERS: f64 = 10.0;
 
 /// A batch in progress. All memory is allocated when it begins; only the list of events of a series grows.
 pub(super) struct Run<'a, T: Several> {
-    pub(super) info: &'static Info,
+    pub(super) info: &'a Info<'a>,
     pub(super) settings: &'a Settings,
     pub(super) scenarios: &'a mut dyn Scenarios<T::One>,
     pub(super) outputs: Vec<usize>,
@@ -263,7 +263,7 @@ impl<'a, T: Several> Run<'a, T> {
         settings: &'a Settings,
         scenarios: &'a mut dyn Scenarios<T::One>,
     ) -> Self {
-        let info = models.info();
+        let info = models.info;
         let outputs = scenarios.outputs().to_vec();
         let (nought, one) = (T::from_f64(0.0), T::Part::from_f64(1.0));
         let zeros = |count: usize| copies(nought, count);

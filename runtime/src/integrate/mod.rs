@@ -311,7 +311,7 @@ pub(crate) enum AnyStepper<'w, T> {
 
 impl<'w, T: Real> AnyStepper<'w, T> {
     /// A step of a method for this model that has not begun.
-    pub fn new(method: &Method, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
+    pub fn new(method: &Method, info: &Info<'_>, workspace: &mut Workspace<'w, T>) -> Self {
         match method.switches() {
             true => AnyStepper::Switching(Switching::new(method.formula, info, workspace)),
             false => AnyStepper::by(method.formula, info, workspace),
@@ -319,7 +319,7 @@ impl<'w, T: Real> AnyStepper<'w, T> {
     }
 
     /// A step by one formula.
-    fn by(formula: Formula, info: &'static Info, workspace: &mut Workspace<'w, T>) -> Self {
+    fn by(formula: Formula, info: &Info<'_>, workspace: &mut Workspace<'w, T>) -> Self {
         let state = info.state_length();
         let coordinates = info.coordinates.len();
         match formula {

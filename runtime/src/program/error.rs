@@ -100,8 +100,8 @@ impl RunError {
     }
 }
 
-impl From<Failure> for RunError {
-    fn from(failure: Failure) -> Self {
+impl From<Failure<'_>> for RunError {
+    fn from(failure: Failure<'_>) -> Self {
         let message = failure.to_string();
         if let Reason::InvalidSettings(_) | Reason::Refused(_) = failure.reason {
             return RunError {

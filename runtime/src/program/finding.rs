@@ -22,8 +22,8 @@ pub struct Finding {
     pub lasts: bool,
 }
 
-impl From<Diagnostic> for Finding {
-    fn from(diagnostic: Diagnostic) -> Self {
+impl From<Diagnostic<'_>> for Finding {
+    fn from(diagnostic: Diagnostic<'_>) -> Self {
         Finding {
             since: diagnostic.t,
             kind: diagnostic.kind().into(),

@@ -90,7 +90,7 @@ pub enum JobError {
         /// The name.
         name: String,
         /// The names that exist.
-        known: Vec<&'static str>,
+        known: Vec<String>,
     },
     /// A parameter is given twice.
     RepeatedParameter {
@@ -108,19 +108,19 @@ pub enum JobError {
         /// Largest allowed, +∞ where unbounded.
         max: f64,
         /// SI unit, "" where there is none.
-        unit: &'static str,
+        unit: String,
     },
     /// The parameters violate a condition of the model.
     Condition {
         /// The condition: "`mass` of man/head must be positive".
-        condition: &'static str,
+        condition: String,
         /// The parameters that were set, with their values (SI).
         parameters: Vec<(String, f64)>,
     },
     /// An entry of the given initial state is not on the manifold of states: a quaternion is not of length 1.
     State {
         /// Its name.
-        name: &'static str,
+        name: String,
         /// The given value.
         value: f64,
         /// The value after normalization.
@@ -169,7 +169,10 @@ fn parameters(info: &Info, named: &[Named]) -> Result<Vec<(usize, f64)>, JobErro
         }
         let mut known = info.parameters.iter().enumerate();
         let Some((index, parameter)) = known.find(|(_, parameter)| parameter.name == name) else {
-            let known = info.parameters.iter().map(|parameter| parameter.name);
+            let known = info
+                .parameters
+                .iter()
+                .map(|parameter| parameter.name.to_owned());
             return Err(JobError::UnknownParameter {
                 name: name.clone(),
                 known: known.collect(),
@@ -182,7 +185,7 @@ fn parameters(info: &Info, named: &[Named]) -> Result<Vec<(usize, f64)>, JobErro
                 value: *value,
                 min: parameter.min,
                 max: parameter.max,
-                unit: parameter.unit,
+                unit: parameter.unit.to_owned(),
             });
         }
         parameters.push((index, *value));
@@ -195,8 +198,8 @@ pub(super) fn adjust<T: Real>(
     model: &mut dyn Adjustable<T>,
     named: &[Named],
 ) -> Result<(), JobError> {
-    let info = model.info();
     if !named.is_empty() {
+        let info = model.info();
         let mut values: Vec<T> = info
             .parameters
             .iter()
@@ -208,10 +211,10 @@ pub(super) fn adjust<T: Real>(
         model.set_parameters(&values);
     }
     let violated = model.violated();
-    match violated.and_then(|index| info.conditions.get(index)) {
+    match violated.and_then(|index| model.info().conditions.get(index)) {
         None => Ok(()),
         Some(condition) => Err(JobError::Condition {
-            condition,
+            condition: (*condition).to_owned(),
             parameters: named.to_vec(),
         }),
     }

@@ -42,7 +42,7 @@ pub type Make<T> = fn() -> Box<dyn Adjustable<T>>;
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// Names, units, sizes.
-    pub info: &'static Info,
+    pub info: &'static Info<'static>,
     make: Make<f64>,
 }
 
@@ -340,7 +340,7 @@ fn execute<T: Real>(
 }
 
 /// The watch that a job asks for.
-fn watch_for<T: Real>(info: &'static Info, job: &Job) -> Watch<'static, T> {
+fn watch_for<'a, T: Real>(info: &'a Info<'a>, job: &Job) -> Watch<'a, T> {
     let mut watch = Watch::new(info, job.energy_limit.unwrap_or(ENERGY_LIMIT));
     watch.history = job.reading.works_every.map(|every| History {
         every,
@@ -385,7 +385,11 @@ fn place<T: Real>(
         // values that are not finite are reported later, as for any initial state
         if (normalized - value).abs() > OFF_MANIFOLD * value.abs().max(1.0) {
             return Err(JobError::State {
-                name: model.info().state_name(index).unwrap_or_default(),
+                name: model
+                    .info()
+                    .state_name(index)
+                    .unwrap_or_default()
+                    .to_owned(),
                 value: *value,
                 normalized,
             });

@@ -7,13 +7,13 @@ use core::fmt;
 
 /// A problem of a run that reached its end: the reason why its results cannot be trusted.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Diagnostic {
+pub struct Diagnostic<'a> {
     /// The time when it began \[s\].
     pub t: f64,
     /// The problem.
     pub problem: Problem,
     /// The model, for its names.
-    pub info: &'static Info,
+    pub info: &'a Info<'a>,
 }
 
 /// What is wrong with a run.
@@ -101,9 +101,9 @@ impl Problem {
     }
 }
 
-impl Diagnostic {
+impl<'a> Diagnostic<'a> {
     /// Name of the coordinate or velocity that is concerned, if there is one.
-    pub fn coordinate(&self) -> Option<&'static str> {
+    pub fn coordinate(&self) -> Option<&'a str> {
         let index = match self.problem {
             Problem::Step { index, .. } | Problem::Error { index } => Some(index),
             Problem::Curve { .. }
@@ -250,7 +250,7 @@ impl fmt::Display for Time {
     }
 }
 
-impl fmt::Display for Diagnostic {
+impl fmt::Display for Diagnostic<'_> {
     // one `match` with a sentence for each problem
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let name = self.coordinate().unwrap_or("?");
@@ -330,7 +330,7 @@ impl fmt::Display for Diagnostic {
 
 /// A message: by how much the argument of a curve exceeds its points, and how the curve is extended.
 pub(crate) struct OutOfRange<'a> {
-    pub curve: &'a CurveInfo,
+    pub curve: &'a CurveInfo<'a>,
     pub argument: f64,
 }
 

@@ -10,7 +10,7 @@ pub struct Driven<'m, T: Real> {
     model: RefCell<&'m mut dyn Adjustable<T>>,
     /// All parameters, then the inputs before the last change.
     memory: RefCell<&'m mut [T]>,
-    info: &'static Info,
+    info: &'m Info<'m>,
     /// True if an input has changed since the run last looked.
     changed: Cell<bool>,
 }
@@ -21,12 +21,13 @@ impl<'m, T: Real> Driven<'m, T> {
         info.parameters.len() + info.inputs().count()
     }
 
-    /// A model at its present parameters. `memory` has [`Driven::length`] scalars of any value.
+    /// A model at its present parameters, and its facts, which must live apart from it because its inputs change: those
+    /// of its family or [`Model::INFO`](crate::Model::INFO). `memory` has [`Driven::length`] scalars of any value.
     ///
     /// # Panics
-    /// With memory of another length.
-    pub fn new(model: &'m mut dyn Adjustable<T>, memory: &'m mut [T]) -> Self {
-        let info = model.info();
+    /// With memory of another length, or with facts of another model.
+    pub fn new(model: &'m mut dyn Adjustable<T>, info: &'m Info<'m>, memory: &'m mut [T]) -> Self {
+        assert!(model.info() == info, "the model is not {}", info.name);
         assert_eq!(
             memory.len(),
             Self::length(info),
@@ -96,7 +97,7 @@ impl<'m, T: Real> Driven<'m, T> {
 }
 
 impl<T: Real> Dynamics<T> for Driven<'_, T> {
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         self.info
     }
 

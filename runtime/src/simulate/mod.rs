@@ -150,10 +150,12 @@ pub fn simulate<T: Real, M: Model<T>>(
     model: &M,
     settings: &Settings,
     sink: &mut impl FnMut(Sample<'_, T>),
-) -> Result<Report, Failure> {
+) -> Result<Report, Failure<'static>> {
     let start = model.initial_state();
     let mut sink = to_the_end(sink);
-    run(&Direct(model), start.as_ref(), settings, None, &mut sink)
+    let model = Direct(model);
+    let run = run(&model, start.as_ref(), settings, None, &mut sink);
+    run.map_err(|failure| failure.with_info(M::INFO))
 }
 
 /// A receiver of samples that never breaks off.
@@ -179,16 +181,12 @@ pub fn simulate_stiff<T: Real, M: Model<T>>(
     model: &M,
     settings: &Settings,
     sink: &mut impl FnMut(Sample<'_, T>),
-) -> Result<Report, Failure> {
+) -> Result<Report, Failure<'static>> {
     let start = model.initial_state();
     let mut sink = to_the_end(sink);
-    run(
-        &Differentiable(model),
-        start.as_ref(),
-        settings,
-        None,
-        &mut sink,
-    )
+    let model = Differentiable(model);
+    let run = run(&model, start.as_ref(), settings, None, &mut sink);
+    run.map_err(|failure| failure.with_info(M::INFO))
 }
 
 /// Runs a model from any state, until the end or until the receiver of the samples breaks off.
@@ -201,8 +199,10 @@ pub fn simulate_from<T: Real, M: Model<T>>(
     initial: M::State,
     settings: &Settings,
     sink: &mut impl FnMut(Sample<'_, T>) -> ControlFlow<()>,
-) -> Result<Report, Failure> {
-    run(&Direct(model), initial.as_ref(), settings, None, sink)
+) -> Result<Report, Failure<'static>> {
+    let model = Direct(model);
+    let run = run(&model, initial.as_ref(), settings, None, sink);
+    run.map_err(|failure| failure.with_info(M::INFO))
 }
 
 /// [`simulate_from`] with a watch, which records where the energy went and whether the run can be trusted. The watch
@@ -221,14 +221,10 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
     settings: &Settings,
     watch: &mut Watch<'_, T>,
     sink: &mut impl FnMut(Sample<'_, T>) -> ControlFlow<()>,
-) -> Result<Report, Failure> {
-    run(
-        &Direct(model),
-        initial.as_ref(),
-        settings,
-        Some(watch),
-        sink,
-    )
+) -> Result<Report, Failure<'static>> {
+    let (model, watch) = (Direct(model), Some(watch));
+    let run = run(&model, initial.as_ref(), settings, watch, sink);
+    run.map_err(|failure| failure.with_info(M::INFO))
 }
 
 /// Runs any model from any state, watched or not. All functions above call this one. It allocates its memory once,
@@ -239,7 +235,7 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
 /// ```
 /// # use bryant_runtime::{Differentiable, Failure, Formula, Method, Model, Report, Settings, Tolerances, simulate::run};
 /// # use std::ops::ControlFlow;
-/// fn end<M: Model<f64>>(model: &M) -> Result<Vec<f64>, Failure> {
+/// fn end<M: Model<f64>>(model: &M) -> Result<Vec<f64>, Failure<'static>> {
 ///     let settings = Settings {
 ///         method: Method::adaptive(Formula::Rodas5, Tolerances::default()),
 ///         ..Settings::of(M::INFO)
@@ -260,13 +256,13 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
 /// # Panics
 /// Where `initial` is not as long as a state of the model; with a watch for another model.
 #[cfg(feature = "std")]
-pub fn run<T: Real>(
-    model: &dyn Dynamics<T>,
+pub fn run<'m, T: Real>(
+    model: &'m dyn Dynamics<T>,
     initial: &[T],
     settings: &Settings,
     watch: Option<&mut Watch<'_, T>>,
     sink: &mut Receiver<'_, T>,
-) -> Result<Report, Failure> {
+) -> Result<Report, Failure<'m>> {
     let length = workspace_length(model.info(), settings);
     let mut workspace = std::vec![T::from_f64(0.0); length];
     run_in(&mut workspace, model, initial, settings, watch, sink)
@@ -281,18 +277,19 @@ pub fn run<T: Real>(
 /// # Panics
 /// As [`run`].
 #[cfg(feature = "std")]
-pub fn run_observed<T: Real>(
-    model: &dyn Dynamics<T>,
+pub fn run_observed<'m, T: Real>(
+    model: &'m dyn Dynamics<T>,
     initial: &[T],
     settings: &Settings,
     watch: Option<&mut Watch<'_, T>>,
     sink: &mut Receiver<'_, T>,
     observer: &mut Observer<'_>,
-) -> Result<Report, Failure> {
+) -> Result<Report, Failure<'m>> {
     let length = workspace_length(model.info(), settings);
     let workspace = &mut std::vec![T::from_f64(0.0); length];
-    let mut run = Run::new(workspace, model, initial, settings, watch)?;
-    T::march(&mut run, sink, Some(observer))
+    let run = Run::new(workspace, model, initial, settings, watch);
+    let end = run.and_then(|mut run| T::march(&mut run, sink, Some(observer)));
+    end.map_err(|failure| failure.with_info(model.info()))
 }
 
 /// [`run`] in the given memory, of at least [`workspace_length`] scalars with any values: for targets without an
@@ -304,16 +301,17 @@ pub fn run_observed<T: Real>(
 /// # Panics
 /// Where the memory is too short; where `initial` is not as long as a state of the model; with a watch for another
 /// model.
-pub fn run_in<T: Real>(
+pub fn run_in<'m, T: Real>(
     workspace: &mut [T],
-    model: &dyn Dynamics<T>,
+    model: &'m dyn Dynamics<T>,
     initial: &[T],
     settings: &Settings,
     watch: Option<&mut Watch<'_, T>>,
     sink: &mut Receiver<'_, T>,
-) -> Result<Report, Failure> {
-    let mut run = Run::new(workspace, model, initial, settings, watch)?;
-    T::march(&mut run, sink, None)
+) -> Result<Report, Failure<'m>> {
+    let run = Run::new(workspace, model, initial, settings, watch);
+    let end = run.and_then(|mut run| T::march(&mut run, sink, None));
+    end.map_err(|failure| failure.with_info(model.info()))
 }
 
 /// The number of scalars that a run of this model needs as its workspace.

@@ -19,16 +19,19 @@ use core::ops::ControlFlow;
 ///
 /// ```
 /// # use bryant_runtime::{Direct, Failure, Model, Settings, simulate::{Run, workspace_length}};
-/// fn positions<M: Model<f64>>(model: &M) -> Result<Vec<f64>, Failure> {
+/// fn positions<M: Model<f64>>(model: &M) -> Result<Vec<f64>, Failure<'static>> {
 ///     let settings = Settings::of(M::INFO);
 ///     let mut memory = vec![0.0; workspace_length(M::INFO, &settings)];
 ///     let (model, start) = (Direct(model), model.initial_state());
-///     let mut run = Run::new(&mut memory, &model, start.as_ref(), &settings, None)?;
+///     // a failure of the run borrows its model, which ends here
+///     let of_model = |failure: Failure<'_>| failure.with_info(M::INFO);
+///     let run = Run::new(&mut memory, &model, start.as_ref(), &settings, None);
+///     let mut run = run.map_err(of_model)?;
 ///     let mut positions = Vec::new();
 ///     for hundredth in 0..=100 {
 ///         // rounding may take a product beyond the end
 ///         let t = (0.01 * settings.duration * f64::from(hundredth)).min(settings.duration);
-///         let sample = run.advance_to(t)?;
+///         let sample = run.advance_to(t).map_err(of_model)?;
 ///         positions.push(sample.state[0]);
 ///     }
 ///     Ok(positions)
@@ -37,9 +40,9 @@ use core::ops::ControlFlow;
 pub struct Run<'a, 'w, T: Real> {
     time_loop: TimeLoop<'a, 'w, T>,
     step: AnyStepper<'a, T>,
-    info: &'static Info,
+    info: &'a Info<'a>,
     /// The failure, if the run has failed.
-    failed: Option<Failure>,
+    failed: Option<Failure<'a>>,
     duration: f64,
 }
 
@@ -59,7 +62,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         initial: &[T],
         settings: &Settings,
         watch: Option<&'a mut Watch<'w, T>>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Failure<'a>> {
         let info = model.info();
         let fail = |reason| Failure {
             t: settings.start,
@@ -115,19 +118,21 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
     /// next. A sample is that just before its inputs change.
     ///
     /// ```
-    /// # use bryant_runtime::{Adjustable, Failure, Refusal, Settings, simulate::{Driven, Run, workspace_length}};
+    /// # use bryant_runtime::{Adjustable, Failure, Info, Settings, simulate::{Driven, Run, workspace_length}};
     /// /// Holds the first coordinate at 0 by the only input, at 1 kHz.
-    /// fn hold(model: &mut dyn Adjustable<f64>) -> Result<(), Failure> {
-    ///     let info = model.info();
+    /// fn hold<'i>(model: &mut dyn Adjustable<f64>, info: &'i Info<'i>) -> Result<(), Failure<'i>> {
     ///     let settings = Settings::of(info);
     ///     let mut start = vec![0.0; info.state_length()];
     ///     model.initial_state(&mut start);
     ///     let mut memory = vec![0.0; workspace_length(info, &settings)];
     ///     let mut parameters = vec![0.0; Driven::<f64>::length(info)];
-    ///     let model = Driven::new(model, &mut parameters);
-    ///     let mut run = Run::driven(&mut memory, &model, &start, &settings, None)?;
+    ///     let model = Driven::new(model, info, &mut parameters);
+    ///     let of_model = |failure: Failure<'_>| failure.with_info(info);
+    ///     let run = Run::driven(&mut memory, &model, &start, &settings, None);
+    ///     let mut run = run.map_err(of_model)?;
     ///     for millisecond in 0..1000 {
-    ///         let state = run.advance_to(1e-3 * f64::from(millisecond))?.state;
+    ///         let sample = run.advance_to(1e-3 * f64::from(millisecond)).map_err(of_model)?;
+    ///         let state = sample.state;
     ///         let torque = -80.0 * state[0] - 4.0 * state[info.coordinates.len()];
     ///         model.set_inputs(&[torque.clamp(-12.0, 12.0)]).expect("within its limits");
     ///     }
@@ -146,7 +151,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         initial: &[T],
         settings: &Settings,
         watch: Option<&'a mut Watch<'w, T>>,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, Failure<'a>> {
         let mut run = Run::new(workspace, model, initial, settings, watch)?;
         run.time_loop.drive(model);
         Ok(run)
@@ -158,7 +163,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
     /// # Errors
     /// A time before that of the last sample or after the duration, which leaves the run as it is; and as
     /// [`simulate`](super::simulate()). After a failure, each further call returns the same failure.
-    pub fn advance_to(&mut self, t: f64) -> Result<Sample<'_, T>, Failure> {
+    pub fn advance_to(&mut self, t: f64) -> Result<Sample<'_, T>, Failure<'a>> {
         let reached = self.report().t;
         if !(reached..=self.duration).contains(&t) {
             return Err(Failure {
@@ -187,7 +192,7 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         &mut self,
         sink: &mut Receiver<'_, T>,
         observer: Option<&mut Observer<'_>>,
-    ) -> Result<Report, Failure> {
+    ) -> Result<Report, Failure<'a>> {
         if let Some(failure) = &self.failed {
             return Err(*failure);
         }

@@ -142,7 +142,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     /// The model again, where its inputs may change; and the next time at which they may \[s\].
     driven: Option<&'a Driven<'a, T>>,
     control: f64,
-    info: &'static Info,
+    info: &'a Info<'a>,
     f: Evaluator<'a, T>,
     settings: Settings,
     pub schedule: Schedule,

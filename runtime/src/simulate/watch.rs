@@ -89,7 +89,7 @@ impl Left {
 /// The watch of a run: what it compares step by step, and what it found.
 #[derive(Debug)]
 pub struct Watch<'a, T: Real> {
-    info: &'static Info,
+    info: &'a Info<'a>,
     /// The balances of energy and momentum.
     pub balance: Balance<'a, T>,
     account: Account,
@@ -165,10 +165,10 @@ impl History {
 }
 
 #[cfg(feature = "std")]
-impl<T: Real> Watch<'static, T> {
+impl<'a, T: Real> Watch<'a, T> {
     /// A watch for one run of this model ([`Model::INFO`](crate::Model::INFO)). `limit` is the share of energy and
     /// momentum that may be missing. The watch allocates its memory here.
-    pub fn new(info: &'static Info, limit: f64) -> Self {
+    pub fn new(info: &'a Info<'a>, limit: f64) -> Self {
         let buffer = |length| Buffer::Owned(std::vec![T::from_f64(0.0); length]);
         Watch::with(info, limit, buffer)
     }
@@ -179,7 +179,7 @@ impl<'a, T: Real> Watch<'a, T> {
     ///
     /// # Panics
     /// If the memory is too short.
-    pub fn within(info: &'static Info, limit: f64, memory: &'a mut [T]) -> Self {
+    pub fn within(info: &'a Info<'a>, limit: f64, memory: &'a mut [T]) -> Self {
         let mut workspace = Workspace::new(memory);
         Watch::with(info, limit, |length| Buffer::Lent(workspace.part(length)))
     }
@@ -194,7 +194,7 @@ impl<'a, T: Real> Watch<'a, T> {
 
     /// A watch for one run. `memory` gives a buffer of the length that it is called with.
     fn with(
-        info: &'static Info,
+        info: &'a Info<'a>,
         limit: f64,
         mut memory: impl FnMut(usize) -> Buffer<'a, T>,
     ) -> Self {
@@ -238,7 +238,7 @@ impl<'a, T: Real> Watch<'a, T> {
     }
 
     /// The watched model.
-    pub fn info(&self) -> &'static Info {
+    pub fn info(&self) -> &'a Info<'a> {
         self.info
     }
 
@@ -256,7 +256,7 @@ impl<'a, T: Real> Watch<'a, T> {
     }
 
     /// Why the run cannot be trusted. Causes come before their consequences.
-    pub fn diagnostics(&self) -> impl Iterator<Item = Diagnostic> + '_ {
+    pub fn diagnostics(&self) -> impl Iterator<Item = Diagnostic<'a>> + '_ {
         let curve = self.left().filter(|left| left.made_up(self.info));
         let curve = curve.map(|left| {
             let Left {

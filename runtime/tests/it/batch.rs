@@ -43,7 +43,7 @@ impl<T: Real> ParameterSet<T> for Parameters<T> {
     }
 }
 
-const fn parameter(name: &'static str, default: f64) -> ParameterInfo {
+const fn parameter(name: &str, default: f64) -> ParameterInfo<'_> {
     ParameterInfo {
         name,
         unit: "",
@@ -58,7 +58,7 @@ impl<T: Real> Model<T> for Bumper<T> {
     type With<U: Real> = Bumper<U>;
     type Parameters = Parameters<T>;
     type State = [T; 3];
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "bumper",
         digest: "",
         dimension: 2,
@@ -581,7 +581,7 @@ impl<T: Real> Model<T> for Swing<T> {
     type With<U: Real> = Swing<U>;
     type Parameters = Frequency<T>;
     type State = [T; 2];
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "swing",
         kinds: &[StateKind::Position, StateKind::Velocity],
         units: &["m", "m/s"],

@@ -36,7 +36,7 @@ const BRYANT: Info = Info {
     ..QUATERNION
 };
 
-fn failure(info: &'static Info, reason: Reason) -> Failure {
+fn failure<'a>(info: &'a Info<'a>, reason: Reason) -> Failure<'a> {
     let t = 0.25;
     Failure { t, reason, info }
 }
@@ -83,8 +83,7 @@ fn what_is_not_finite_names_the_output_that_shares_it() {
     assert!(text.contains("output \"lap belt force\""), "{text}");
     // a curve that may be left is not named as a cause, and a model without curves names none
     assert!(!text.contains("curve"), "{text}");
-    let info: &'static Info = &LEAVABLE;
-    let text = failure(info, reason).to_string();
+    let text = failure(&LEAVABLE, reason).to_string();
     assert!(text.contains("left its range"), "{text}");
 }
 

@@ -104,7 +104,7 @@ macro_rules! model {
 
         impl<T: Real> Model<T> for $model {
             bare!($model, state [$($q,)* $($v,)*].len(), from $y0);
-            const INFO: &'static Info = &Info {
+            const INFO: &'static Info<'static> = &Info {
                 name: stringify!($model),
                 coordinates: &[$($q),*],
                 velocities: &[$($v),*],
@@ -134,7 +134,7 @@ pub struct Oscillator<T = f64> {
 
 impl Oscillator {
     /// The information on the model, the same for every scalar.
-    pub const INFO: &'static Info = &Info {
+    pub const INFO: &'static Info<'static> = &Info {
         name: "oscillator",
         digest: "0123",
         coordinates: &["mass.x"],
@@ -177,7 +177,7 @@ impl<T: Real> Model<T> for Oscillator<T> {
     type With<U: Real> = Oscillator<U>;
     type Parameters = Oscillator<T>;
     type State = [T; 2];
-    const INFO: &'static Info = Oscillator::INFO;
+    const INFO: &'static Info<'static> = Oscillator::INFO;
     fn new(parameters: Self) -> Self {
         parameters
     }
@@ -264,7 +264,7 @@ pub const SPRING: Curve<2> = Curve::new([[-1.0, 0.0], [0.45, 1e-3]], Extrapolate
 
 impl<T: Real> Model<T> for Runaway {
     bare!(Runaway, state 2, from [0.0, 1.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "runaway",
         coordinates: &["mass.x"],
         velocities: &["mass.x"],
@@ -308,7 +308,7 @@ pub struct Spin;
 
 impl<T: Real> Model<T> for Spin {
     bare!(Spin, state 4, from [1.0, 0.0, 0.0, 0.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "spin",
         dimension: 3,
         coordinates: &["w", "x", "y", "z"],
@@ -334,7 +334,7 @@ pub struct Ratchet;
 
 impl<T: Real> Model<T> for Ratchet {
     bare!(Ratchet, state 3, from [-1.0, 0.0, -2.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "ratchet",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
@@ -363,7 +363,7 @@ pub struct Ledge;
 
 impl<T: Real> Model<T> for Ledge {
     bare!(Ledge, state 3, from [0.0, 1.0, 0.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "ledge",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
@@ -393,7 +393,7 @@ pub struct Counter;
 
 impl<T: Real> Model<T> for Counter {
     bare!(Counter, state 3, from [0.0, 1.0, 0.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "counter",
         kinds: &[StateKind::Position, StateKind::Velocity, StateKind::Memory],
         units: &["m", "m/s", ""],
@@ -417,7 +417,7 @@ pub struct Chain;
 
 impl<T: Real> Model<T> for Chain {
     bare!(Chain, state 5, from [0.0, 0.0, 9.0, 9.0, 9.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "chain",
         kinds: &[
             StateKind::Position,
@@ -491,7 +491,7 @@ pub struct Leaky;
 
 impl<T: Real> Model<T> for Leaky {
     bare!(Leaky, state 2, from [0.0, 0.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "Leaky",
         powers: &["thrust"],
         breakpoints: &[0.5],
@@ -516,7 +516,7 @@ pub struct Stage;
 
 impl<T: Real> Model<T> for Stage {
     bare!(Stage, state 2, from [1.0, 0.0]);
-    const INFO: &'static Info = &Info {
+    const INFO: &'static Info<'static> = &Info {
         name: "Stage",
         powers: &["spring"],
         ..BARE

@@ -20,7 +20,7 @@ use std::ops::ControlFlow;
 
 type Rows = Vec<(f64, Vec<f64>)>;
 
-fn rows<M: Model<f64>>(settings: &Settings) -> (Rows, Result<Report, Failure>)
+fn rows<M: Model<f64>>(settings: &Settings) -> (Rows, Result<Report, Failure<'static>>)
 where
     M::Parameters: bryant_runtime::ParameterSet<f64>,
 {

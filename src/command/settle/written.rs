@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 /// The coordinates do not fit the model.
 pub fn start(
     model: &Model,
-    info: &'static Info,
+    info: &Info<'_>,
     parameters: &[f64],
     state: &[f64],
 ) -> Result<String, String> {

@@ -174,21 +174,21 @@ pub fn engine(name: &str, matrices: bool) -> Engine {
 
 /// Asserts that two models give the same bits at many states and for several parameters.
 pub fn compare<T: Real, O: Of<T>>(expected: &mut dyn Adjustable<T>, found: &mut dyn Adjustable<T>) {
-    let info = expected.info();
-    assert_eq!(info, found.info());
-    let mut random = Random::new(info.state_length() as u64);
+    assert_eq!(expected.info(), found.info());
+    let mut random = Random::new(expected.info().state_length() as u64);
     for round in 0..6 {
         if round > 0 {
             let size = 0.05 * f64::from(round);
-            let near = |parameter: &bryant_runtime::ParameterInfo, random: &mut Random| {
+            let near = |parameter: &bryant_runtime::ParameterInfo<'_>, random: &mut Random| {
                 O::near(parameter.default, size * parameter.default, random)
             };
-            let parameters = info.parameters.iter();
+            let parameters = expected.info().parameters.iter();
             let values: Vec<T> = parameters.map(|p| near(p, &mut random)).collect();
             expected.set_parameters(&values);
             found.set_parameters(&values);
         }
         compare_constants::<T, O>(&*expected, &*found);
+        let info = expected.info();
         for state in 0..20 {
             let mut y = vec![T::from_f64(0.0); info.state_length()];
             expected.initial_state(&mut y);

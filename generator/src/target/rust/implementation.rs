@@ -37,7 +37,7 @@ pub(crate) fn implementation(
             type With<U: Real> = Mechanism<U>;
             type Parameters = Parameters<T>;
             type State = [T; STATE];
-            const INFO: &'static Info = &INFO;
+            const INFO: &'static Info<'static> = &INFO;
 
             #[inline(always)]
             fn new(parameters: Parameters<T>) -> Self {

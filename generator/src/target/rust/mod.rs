@@ -50,7 +50,7 @@ pub(crate) use user::pasted;
 pub use user::{Adapter, Apart, apart, skeleton};
 
 /// Version of the contract with `bryant_runtime`, checked where the emitted text is compiled.
-pub const GENERATED_CODE_VERSION: u32 = 18;
+pub const GENERATED_CODE_VERSION: u32 = 19;
 
 /// The text of the module of a model. It depends only on the arguments and the version of this crate.
 pub fn module(model: &Model, equations: &Equations, options: &Options) -> String {

@@ -11,7 +11,10 @@ fn watched<M: Model<f64>>(
     parameter: Option<f64>,
     settings: &Settings,
     limit: f64,
-) -> (Watch<'static, f64>, Result<Report, bryant_runtime::Failure>) {
+) -> (
+    Watch<'static, f64>,
+    Result<Report, bryant_runtime::Failure<'static>>,
+) {
     let mut parameters = M::Parameters::defaults();
     if let Some(value) = parameter {
         assert!(parameters.set(0, value));
@@ -21,7 +24,7 @@ fn watched<M: Model<f64>>(
     let (model, start) = (Differentiable(&model), model.initial_state());
     let sink = &mut |_: bryant_runtime::Sample<'_, _>| ControlFlow::Continue(());
     let result = run(&model, start.as_ref(), settings, Some(&mut watch), sink);
-    (watch, result)
+    (watch, result.map_err(|failure| failure.with_info(M::INFO)))
 }
 
 fn settings(method: Method, duration: f64) -> Settings {

@@ -37,6 +37,6 @@ run: { duration: 0.1 s, every: 10 ms }
     );
 }
 
-fn model_velocity(engine: &Engine) -> &'static str {
+fn model_velocity(engine: &Engine) -> &str {
     engine.info().velocities[0]
 }

@@ -32,7 +32,7 @@ struct Once {
 }
 
 impl Runs for Once {
-    fn info(&self) -> &'static Info {
+    fn info(&self) -> &Info<'_> {
         self.engine.info()
     }
 
