@@ -241,11 +241,13 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
 ///         ..Settings::of(M::INFO)
 ///     };
 ///     let mut end = Vec::new();
-///     let start = model.initial_state();
-///     run(&Differentiable(model), start.as_ref(), &settings, None, &mut |sample| {
+///     let (model, start) = (Differentiable(model), model.initial_state());
+///     let report = run(&model, start.as_ref(), &settings, None, &mut |sample| {
 ///         end = sample.state.to_vec();
 ///         ControlFlow::Continue(())
-///     })?;
+///     });
+///     // a failure of the run borrows its model, which ends here
+///     report.map_err(|failure| failure.with_info(M::INFO))?;
 ///     Ok(end)
 /// }
 /// ```
