@@ -8,7 +8,8 @@ use bryant_runtime::ffi::What;
 use bryant_runtime::{Adjustable, Dynamics, Info, Section};
 use std::sync::OnceLock;
 
-/// A model over `f64`, compiled by rustc and loaded.
+/// A model over `f64`, compiled by rustc and loaded. It borrows the facts of the model from an engine or from generated
+/// code.
 #[derive(Debug)]
 pub struct RustcModel<'i> {
     library: Compiled,

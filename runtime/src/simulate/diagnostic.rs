@@ -5,7 +5,8 @@ use crate::model::{CurveInfo, CurveKind};
 use crate::{Formula, Info};
 use core::fmt;
 
-/// A problem of a run that reached its end: the reason why its results cannot be trusted.
+/// A problem of a run that reached its end: the reason why its results cannot be trusted. Its names are those of the
+/// model, which it borrows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Diagnostic<'a> {
     /// The time when it began \[s\].

@@ -253,7 +253,7 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
 /// ```
 ///
 /// # Errors
-/// As [`simulate`].
+/// As [`simulate`]. The failure borrows the model; [`Failure::with_info`] makes it last longer.
 ///
 /// # Panics
 /// Where `initial` is not as long as a state of the model; with a watch for another model.

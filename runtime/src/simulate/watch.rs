@@ -86,7 +86,7 @@ impl Left {
     }
 }
 
-/// The watch of a run: what it compares step by step, and what it found.
+/// The watch of a run: what it compares step by step, and what it found. It borrows the facts of the model.
 #[derive(Debug)]
 pub struct Watch<'a, T: Real> {
     info: &'a Info<'a>,
