@@ -17,7 +17,7 @@ pub mod shape;
 pub mod turn;
 
 use crate::pose::{Frame, Vec3, cross, quaternion};
-use crate::scene::{Kind, Scene};
+use crate::scene::{LineKind, Scene};
 use file::File;
 use plate::Plate;
 use serde_json::json;
@@ -206,7 +206,10 @@ impl File<'_> {
     /// Adds belts, springs and bushings: a node for each segment, below it a node for each rod.
     fn lines(&mut self) {
         let scene = self.scene;
-        let belts = scene.lines.iter().filter(|line| line.kind == Kind::Belt);
+        let belts = scene
+            .lines
+            .iter()
+            .filter(|line| line.kind == LineKind::Belt);
         let pulls = belts.flat_map(|belt| belt.pulls.iter().flatten());
         let largest = pulls.fold(0.0, |most: f64, pull| pull.max(most));
         for line in &scene.lines {
@@ -216,7 +219,7 @@ impl File<'_> {
                     _ => format!("{}, segment {}", line.name, segment + 1),
                 };
                 let steps: Vec<usize> = match (line.kind, line.pulls.get(segment)) {
-                    (Kind::Belt, Some(pulls)) => {
+                    (LineKind::Belt, Some(pulls)) => {
                         let step = |pull: &f64| (pull / largest * STEPS as f64).ceil() as usize;
                         pulls.iter().map(step).collect()
                     }
@@ -235,8 +238,8 @@ impl File<'_> {
     }
 
     /// The looks of a line that is at these steps of force: mesh and radius of each, and the times and scales by which it is there.
-    fn looks(&mut self, kind: Kind, steps: &[usize]) -> Vec<(usize, f64, Option<Shows>)> {
-        if kind != Kind::Belt {
+    fn looks(&mut self, kind: LineKind, steps: &[usize]) -> Vec<(usize, f64, Option<Shows>)> {
+        if kind != LineKind::Belt {
             return vec![(self.shape(Shape::Rod, OF_SPRINGS), THIN, None)];
         }
         let mut used = steps.to_vec();

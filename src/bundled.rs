@@ -2,7 +2,7 @@
 
 use bryant_generator::diagnostic::Diagnostics;
 use bryant_generator::model::Model;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use std::io;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -66,8 +66,8 @@ pub fn model(bundled: &Bundled) -> Result<Model, Diagnostics> {
 ///
 /// # Errors
 /// As [`model`].
-pub fn scene(bundled: &Bundled) -> Result<Scene, Diagnostics> {
+pub fn scene(bundled: &Bundled) -> Result<AnnotatedModel, Diagnostics> {
     let missing = || io::Error::from(io::ErrorKind::NotFound);
     let loader = |path: &Path| file(path).map(str::to_owned).ok_or_else(missing);
-    bryant_generator::read_scene_str(bundled.file, bundled.yaml, &loader)
+    bryant_generator::read_annotated_str(bundled.file, bundled.yaml, &loader)
 }

@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The kind of content of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ContentKind {
     /// A table of a run or of a study of accuracy, CSV.
     Table,
     /// A table as Apache Parquet.
@@ -38,38 +38,38 @@ pub enum Kind {
 /// The remark on an archive of this program.
 pub const ARCHIVE: &str = "bryant";
 
-impl Kind {
+impl ContentKind {
     /// The extensions of such files; empty if the user does not choose their names.
     pub fn endings(self) -> &'static [&'static str] {
         match self {
-            Kind::Table => &["csv", "txt", "dat"],
-            Kind::Parquet => &["parquet"],
-            Kind::Picture => &["svg", "png"],
-            Kind::Report => &["html", "htm"],
-            Kind::Markdown => &["md", "markdown", "txt"],
-            Kind::Animation => &["glb"],
-            Kind::State => &["json"],
-            Kind::Test => &["mme"],
-            Kind::Model => &["yaml", "yml"],
-            Kind::Source => &["c", "h"],
-            Kind::Fmu => &["fmu"],
+            ContentKind::Table => &["csv", "txt", "dat"],
+            ContentKind::Parquet => &["parquet"],
+            ContentKind::Picture => &["svg", "png"],
+            ContentKind::Report => &["html", "htm"],
+            ContentKind::Markdown => &["md", "markdown", "txt"],
+            ContentKind::Animation => &["glb"],
+            ContentKind::State => &["json"],
+            ContentKind::Test => &["mme"],
+            ContentKind::Model => &["yaml", "yml"],
+            ContentKind::Source => &["c", "h"],
+            ContentKind::Fmu => &["fmu"],
         }
     }
 
     /// The kind in words.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Table => "a table, CSV",
-            Kind::Parquet => "Apache Parquet",
-            Kind::Picture => "a picture, SVG or PNG",
-            Kind::Report => "a page of HTML",
-            Kind::Markdown => "Markdown",
-            Kind::Animation => "binary glTF",
-            Kind::State => "a state, JSON",
-            Kind::Test => "ISO-MME",
-            Kind::Model => "YAML",
-            Kind::Source => "C",
-            Kind::Fmu => "an FMU",
+            ContentKind::Table => "a table, CSV",
+            ContentKind::Parquet => "Apache Parquet",
+            ContentKind::Picture => "a picture, SVG or PNG",
+            ContentKind::Report => "a page of HTML",
+            ContentKind::Markdown => "Markdown",
+            ContentKind::Animation => "binary glTF",
+            ContentKind::State => "a state, JSON",
+            ContentKind::Test => "ISO-MME",
+            ContentKind::Model => "YAML",
+            ContentKind::Source => "C",
+            ContentKind::Fmu => "an FMU",
         }
     }
 
@@ -104,8 +104,8 @@ const SIGNED: &str =
 ///
 /// # Errors
 /// The file exists and cannot be read.
-pub fn may_replace(path: &Path, kind: Kind) -> io::Result<bool> {
-    if kind == Kind::Test {
+pub fn may_replace(path: &Path, kind: ContentKind) -> io::Result<bool> {
+    if kind == ContentKind::Test {
         return may_replace_test(path);
     }
     let about = match std::fs::metadata(path) {
@@ -116,7 +116,7 @@ pub fn may_replace(path: &Path, kind: Kind) -> io::Result<bool> {
     if !about.is_file() || about.len() == 0 {
         return Ok(true);
     }
-    if kind == Kind::Model {
+    if kind == ContentKind::Model {
         return Ok(std::fs::read(path).is_ok_and(|bytes| is_signed(&bytes)));
     }
     let mut file = File::open(path)?;
@@ -128,30 +128,34 @@ pub fn may_replace(path: &Path, kind: Kind) -> io::Result<bool> {
     Ok(is_own(&begin, &end, kind))
 }
 
-fn is_own(begin: &[u8], end: &[u8], kind: Kind) -> bool {
+fn is_own(begin: &[u8], end: &[u8], kind: ContentKind) -> bool {
     let has = |bytes: &[u8], mark: &str| bytes.windows(mark.len()).any(|w| w == mark.as_bytes());
     let line = begin.split(|b| *b == b'\n').next().unwrap_or_default();
     match kind {
-        Kind::Table => is_own_heading(line) || has(line, "model digest,bryant,commit"),
-        Kind::Parquet => begin.starts_with(b"PAR1") && has(end, "bryant"),
-        Kind::Picture => {
+        ContentKind::Table => is_own_heading(line) || has(line, "model digest,bryant,commit"),
+        ContentKind::Parquet => begin.starts_with(b"PAR1") && has(end, "bryant"),
+        ContentKind::Picture => {
             let svg = begin.starts_with(b"<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"")
                 && has(line, "role=\"img\"")
                 && has(begin, "</title>\n<style>\ntext{");
             svg || bryant_picture::is_own_png(begin)
         }
-        Kind::Report => has(begin, "<meta name=\"generator\" content=\"bryant\">"),
-        Kind::Markdown => begin.starts_with(b"# Hard cases\n") || has(begin, "\n(`bryant accuracy"),
-        Kind::Animation => begin.starts_with(b"glTF") && has(begin, "\"generator\":\"bryant"),
-        Kind::State => {
+        ContentKind::Report => has(begin, "<meta name=\"generator\" content=\"bryant\">"),
+        ContentKind::Markdown => {
+            begin.starts_with(b"# Hard cases\n") || has(begin, "\n(`bryant accuracy")
+        }
+        ContentKind::Animation => {
+            begin.starts_with(b"glTF") && has(begin, "\"generator\":\"bryant")
+        }
+        ContentKind::State => {
             begin.starts_with(b"{\n  \"model\": ") && has(begin, "\n  \"coordinates\": {")
         }
-        Kind::Source => {
+        ContentKind::Source => {
             has(begin, "@generated by bryant") || begin.starts_with(b"/* Functions of ")
         }
         // the remark is the end of an archive
-        Kind::Fmu => begin.starts_with(b"PK") && end.ends_with(ARCHIVE.as_bytes()),
-        Kind::Test | Kind::Model => false,
+        ContentKind::Fmu => begin.starts_with(b"PK") && end.ends_with(ARCHIVE.as_bytes()),
+        ContentKind::Test | ContentKind::Model => false,
     }
 }
 

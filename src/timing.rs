@@ -10,19 +10,19 @@ use std::time::Instant;
 
 /// The method that is timed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Method {
+pub enum TimedMethod {
     /// The rates of the state, which are mainly accelerations.
     Accelerations,
     /// The outputs, including the accelerations if they need them.
     Outputs,
 }
 
-impl Method {
+impl TimedMethod {
     /// Its name in tables.
     pub fn name(self) -> &'static str {
         match self {
-            Method::Accelerations => "accelerations",
-            Method::Outputs => "outputs",
+            TimedMethod::Accelerations => "accelerations",
+            TimedMethod::Outputs => "outputs",
         }
     }
 }
@@ -44,7 +44,7 @@ const TURN: f64 = 5e-5;
 const STATES: usize = 8;
 
 /// Measures one method of each model.
-pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
+pub fn time(models: &[(&Engine, TimedMethod)]) -> Vec<Measured> {
     let mut all: Vec<Evaluations<'_>> = models
         .iter()
         .map(|(engine, method)| Evaluations::new(engine, *method))
@@ -73,11 +73,11 @@ pub fn time(models: &[(&Engine, Method)]) -> Vec<Measured> {
 }
 
 /// Length of the machine code.
-fn bytes(engine: &Engine, method: Method) -> Option<u64> {
-    use bryant_generator::program::Method as Of;
+fn bytes(engine: &Engine, method: TimedMethod) -> Option<u64> {
+    use bryant_generator::program::Method;
     let method = match method {
-        Method::Accelerations => Of::Derivative,
-        Method::Outputs => Of::Outputs,
+        TimedMethod::Accelerations => Method::Derivative,
+        TimedMethod::Outputs => Method::Outputs,
     };
     engine.code_bytes(method).map(|bytes| bytes as u64)
 }
@@ -85,14 +85,14 @@ fn bytes(engine: &Engine, method: Method) -> Option<u64> {
 /// Evaluates a model repeatedly.
 struct Evaluations<'a> {
     model: Box<dyn Adjustable<f64> + 'a>,
-    method: Method,
+    method: TimedMethod,
     t: f64,
     states: Vec<Vec<f64>>,
     results: Vec<f64>,
 }
 
 impl<'a> Evaluations<'a> {
-    fn new(engine: &'a Engine, method: Method) -> Self {
+    fn new(engine: &'a Engine, method: TimedMethod) -> Self {
         let model = engine.in_double();
         let info = engine.info();
         let mut start = vec![0.0; info.state_length()];
@@ -126,16 +126,16 @@ impl<'a> Evaluations<'a> {
     fn take(&mut self, count: u64) -> f64 {
         let info = self.model.info();
         let length = match self.method {
-            Method::Accelerations => info.state_length(),
-            Method::Outputs => info.outputs.len(),
+            TimedMethod::Accelerations => info.state_length(),
+            TimedMethod::Outputs => info.outputs.len(),
         };
         let results = &mut self.results[..length];
         let begin = Instant::now();
         for i in 0..count {
             let y = black_box(&self.states[i as usize % STATES]);
             match self.method {
-                Method::Accelerations => self.model.derivative(black_box(self.t), y, results),
-                Method::Outputs => self.model.outputs(black_box(self.t), y, results),
+                TimedMethod::Accelerations => self.model.derivative(black_box(self.t), y, results),
+                TimedMethod::Outputs => self.model.outputs(black_box(self.t), y, results),
             }
             black_box(&*results);
         }

@@ -26,7 +26,7 @@ use std::time::Instant;
 type Failed = Box<dyn std::error::Error>;
 
 /// A scene and its study: parameters with their ranges \[SI\], time between samples \[s\], responses.
-struct Scene {
+struct Case {
     name: &'static str,
     file: &'static str,
     varied: &'static [(&'static str, f64, f64)],
@@ -38,8 +38,8 @@ struct Scene {
 
 const KM_H: f64 = 1.0 / 3.6;
 
-const SCENES: [Scene; 3] = [
-    Scene {
+const SCENES: [Case; 3] = [
+    Case {
         name: "occupant",
         file: "benches/scenes/occupant.yaml",
         varied: &[
@@ -57,7 +57,7 @@ const SCENES: [Scene; 3] = [
         ],
         goal: 4.0,
     },
-    Scene {
+    Case {
         name: "pedestrian",
         file: "benches/scenes/pedestrian.yaml",
         varied: &[
@@ -75,7 +75,7 @@ const SCENES: [Scene; 3] = [
         ],
         goal: 6.0,
     },
-    Scene {
+    Case {
         name: "child-seat",
         file: "models/child-seat.yaml",
         varied: &[],
@@ -100,7 +100,7 @@ fn main() -> Result<(), Failed> {
     Ok(())
 }
 
-fn measure(scene: &Scene) -> Result<(), Failed> {
+fn measure(scene: &Case) -> Result<(), Failed> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let (model, _) = bryant_generator::read(&root.join(scene.file))?;
     let engine = Engine::new(Config::new().matrices(false).lists(&model))?;
@@ -198,8 +198,8 @@ fn watched(machine: &dyn Dynamics<f64>) -> Result<(u64, u64), Failed> {
 }
 
 /// Rows of the study in lanes, each with its error estimate.
-fn in_lanes(engine: &Engine, scene: &Scene, width: Width) -> Result<(), Failed> {
-    if !width.there() {
+fn in_lanes(engine: &Engine, scene: &Case, width: Width) -> Result<(), Failed> {
+    if !width.is_available() {
         println!("  no registers of width {}", width.name());
         return Ok(());
     }
@@ -231,7 +231,7 @@ fn in_lanes(engine: &Engine, scene: &Scene, width: Width) -> Result<(), Failed> 
     Ok(())
 }
 
-fn job(info: &Info, scene: &Scene, width: Width) -> Result<Job, Failed> {
+fn job(info: &Info, scene: &Case, width: Width) -> Result<Job, Failed> {
     let varied = scene.varied.iter().map(|(name, ..)| {
         let found = info.parameters.iter().position(|p| p.name == *name);
         found.ok_or_else(|| format!("no parameter {name}"))
@@ -261,7 +261,7 @@ fn job(info: &Info, scene: &Scene, width: Width) -> Result<Job, Failed> {
 }
 
 /// Rows that fill the ranges of the parameters uniformly: Weyl's sequence.
-fn spread(scene: &Scene, count: usize) -> Vec<f64> {
+fn spread(scene: &Case, count: usize) -> Vec<f64> {
     let mut rows = Vec::new();
     for row in 0..count {
         for (place, (_, from, to)) in scene.varied.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use bryant_generator::equations::Watched;
 use bryant_generator::model;
-use bryant_generator::program::{Facts, Kind};
+use bryant_generator::program::{self, Facts};
 use bryant_runtime::curve::Extrapolate;
 use bryant_runtime::{CurveInfo, CurveKind, Info, OutputInfo, ParameterInfo, StateKind};
 use std::sync::Arc;
@@ -73,7 +73,7 @@ impl<'a> Lists<'a> {
             last: curve.range[1],
             ends: curve.ends,
             extrapolate: extrapolate(curve.extrapolate),
-            told: curve.told,
+            told: curve.states_extrapolation,
             kind: match curve.kind {
                 Watched::Curve(..) => CurveKind::Curve,
                 Watched::Bearing => CurveKind::Bearing,
@@ -149,14 +149,14 @@ impl<'a> Lists<'a> {
     }
 }
 
-fn kind(of: Kind) -> StateKind {
+fn kind(of: program::StateKind) -> StateKind {
     match of {
-        Kind::Position => StateKind::Position,
-        Kind::Angle => StateKind::Angle,
-        Kind::Velocity => StateKind::Velocity,
-        Kind::AngularVelocity => StateKind::AngularVelocity,
-        Kind::Law => StateKind::Law,
-        Kind::Memory => StateKind::Memory,
+        program::StateKind::Position => StateKind::Position,
+        program::StateKind::Angle => StateKind::Angle,
+        program::StateKind::Velocity => StateKind::Velocity,
+        program::StateKind::AngularVelocity => StateKind::AngularVelocity,
+        program::StateKind::Law => StateKind::Law,
+        program::StateKind::Memory => StateKind::Memory,
     }
 }
 

@@ -2,7 +2,7 @@
 
 pub use crate::call::Library;
 pub use crate::interpret::{alone, count_runs};
-pub use crate::native::{Call, Compiled, compile, target, there};
+pub use crate::native::{Call, Compiled, compile, has_machine_code, target};
 
 use crate::evaluate::Evaluator;
 use crate::model::{Engine, WithoutJacobian};

@@ -23,7 +23,7 @@ use std::sync::{Arc, OnceLock};
 pub struct Programs {
     constants: Vec<f64>,
     /// The place of each constant, by its bits.
-    place_of: HashMap<u64, Place>,
+    place_of: HashMap<u64, FrameIndex>,
     layout: Layout,
     /// The code of each set of methods.
     codes: Sets<Code>,
@@ -32,17 +32,17 @@ pub struct Programs {
 }
 
 /// A place in the frame.
-type Place = u32;
+type FrameIndex = u32;
 
 /// The first place of each part of the frame. The constants come first, then these parts in their order.
 #[derive(Clone, Copy, Debug)]
 struct Layout {
-    parameters: Place,
-    derived: Place,
-    time: Place,
-    state: Place,
+    parameters: FrameIndex,
+    derived: FrameIndex,
+    time: FrameIndex,
+    state: FrameIndex,
     /// Results of operations.
-    rest: Place,
+    rest: FrameIndex,
 }
 
 /// A list in the form that the interpreter runs.
@@ -53,11 +53,11 @@ struct Code {
     /// The calls; a step has the index of its call.
     calls: Vec<Call>,
     /// The places of the arguments of calls.
-    arguments: Vec<Place>,
+    arguments: Vec<FrameIndex>,
     /// Number of arguments of the longest call.
     most_arguments: usize,
     /// The places of the results of the list.
-    results: Vec<Place>,
+    results: Vec<FrameIndex>,
     /// One more than the largest place.
     end: usize,
 }
@@ -65,7 +65,7 @@ struct Code {
 /// Successive operations of one kind.
 #[derive(Clone, Copy, Debug)]
 struct Run {
-    kind: Kind,
+    kind: OperationKind,
     count: usize,
 }
 
@@ -73,10 +73,10 @@ struct Run {
 /// call.
 #[derive(Clone, Copy, Debug)]
 struct Step {
-    to: Place,
-    a: Place,
-    b: Place,
-    c: Place,
+    to: FrameIndex,
+    a: FrameIndex,
+    b: FrameIndex,
+    c: FrameIndex,
 }
 
 /// A call: the range of its arguments; and the first place of its results, with their number.
@@ -89,7 +89,7 @@ struct Call {
 
 /// The kind of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
+enum OperationKind {
     Mul,
     MulAdd,
     Add,
@@ -105,30 +105,30 @@ enum Kind {
 }
 
 /// Number of kinds.
-const KINDS: usize = Kind::Call as usize + 1;
+const KINDS: usize = OperationKind::Call as usize + 1;
 
-impl Kind {
-    fn of(operation: Operation) -> Kind {
+impl OperationKind {
+    fn of(operation: Operation) -> OperationKind {
         match operation {
-            Operation::Neg(_) => Kind::Neg,
-            Operation::Add(..) => Kind::Add,
-            Operation::Sub(..) => Kind::Sub,
-            Operation::Mul(..) => Kind::Mul,
-            Operation::Div(..) => Kind::Div,
-            Operation::MulAdd(..) => Kind::MulAdd,
-            Operation::Sqrt(_) => Kind::Sqrt,
-            Operation::SinCos(_) => Kind::SinCos,
-            Operation::Atan2(..) => Kind::Atan2,
-            Operation::Max(..) => Kind::Max,
-            Operation::Min(..) => Kind::Min,
-            Operation::Call { .. } => Kind::Call,
+            Operation::Neg(_) => OperationKind::Neg,
+            Operation::Add(..) => OperationKind::Add,
+            Operation::Sub(..) => OperationKind::Sub,
+            Operation::Mul(..) => OperationKind::Mul,
+            Operation::Div(..) => OperationKind::Div,
+            Operation::MulAdd(..) => OperationKind::MulAdd,
+            Operation::Sqrt(_) => OperationKind::Sqrt,
+            Operation::SinCos(_) => OperationKind::SinCos,
+            Operation::Atan2(..) => OperationKind::Atan2,
+            Operation::Max(..) => OperationKind::Max,
+            Operation::Min(..) => OperationKind::Min,
+            Operation::Call { .. } => OperationKind::Call,
         }
     }
 }
 
 impl Layout {
     /// The place of an input in the frame.
-    fn place(&self, input: Input) -> Place {
+    fn place(&self, input: Input) -> FrameIndex {
         match input {
             Input::Time => self.time,
             Input::State(i) => self.state + i,
@@ -145,25 +145,25 @@ impl Programs {
     pub fn new(lists: &Lists) -> Self {
         let facts = &lists.facts;
         let mut constants = Vec::new();
-        let mut place_of: HashMap<u64, Place> = HashMap::new();
+        let mut place_of: HashMap<u64, FrameIndex> = HashMap::new();
         let functions = lists.functions.iter().map(|function| &function.list);
         let all = lists.routines.iter().map(|routine| &routine.list);
         for constant in all.chain(functions).flat_map(|list| &list.constants) {
             place_of.entry(constant.to_bits()).or_insert_with(|| {
                 constants.push(*constant);
-                constants.len() as Place - 1
+                constants.len() as FrameIndex - 1
             });
         }
-        let parameters = constants.len() as Place;
-        let derived = parameters + facts.parameters.len() as Place;
-        let time = derived + lists.derived as Place;
+        let parameters = constants.len() as FrameIndex;
+        let derived = parameters + facts.parameters.len() as FrameIndex;
+        let time = derived + lists.derived as FrameIndex;
         let state = time + 1;
         // accelerations, for functions that need them, are behind the state
         let accelerations = match lists.functions.iter().any(|of| of.accelerations) {
-            true => facts.velocities.len() as Place,
+            true => facts.velocities.len() as FrameIndex,
             false => 0,
         };
-        let rest = state + facts.kinds.len() as Place + accelerations;
+        let rest = state + facts.kinds.len() as FrameIndex + accelerations;
         Programs {
             constants,
             place_of,
@@ -186,9 +186,9 @@ impl Programs {
 }
 
 /// Encodes a list. `constants` gives the place of each constant, by its bits.
-fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code {
+fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, FrameIndex>) -> Code {
     let ordered = in_runs(list);
-    let mut place: Vec<Place> = Vec::with_capacity(list.values());
+    let mut place: Vec<FrameIndex> = Vec::with_capacity(list.values());
     place.extend(list.constants.iter().map(|c| constants[&c.to_bits()]));
     place.extend(list.inputs.iter().map(|input| layout.place(*input)));
     let leaves = place.len();
@@ -208,14 +208,14 @@ fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code
     }
     let (mut code, mut free, mut next) = (Code::default(), Vec::new(), layout.rest);
     for (number, &(first, operation)) in ordered.iter().enumerate() {
-        let kind = Kind::of(operation);
+        let kind = OperationKind::of(operation);
         let mut operands = list.operands(operation);
         let argument = code.arguments.len();
         let [a, b, c] = match kind {
-            Kind::Call => {
+            OperationKind::Call => {
                 code.arguments
                     .extend(operands.map(|value| place[value.0 as usize]));
-                [code.calls.len() as Place, 0, 0]
+                [code.calls.len() as FrameIndex, 0, 0]
             }
             _ => {
                 std::array::from_fn(|_| operands.next().map_or(0, |value| place[value.0 as usize]))
@@ -223,7 +223,7 @@ fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code
         };
         let count = operation.defines();
         // a value is freed once, even if the operation uses it twice
-        let mut free_after = |value: usize, place: &[Place]| {
+        let mut free_after = |value: usize, place: &[FrameIndex]| {
             if last_use[value] == number {
                 last_use[value] = usize::MAX;
                 free.push(place[value]);
@@ -235,11 +235,11 @@ fn encode(list: &List, layout: &Layout, constants: &HashMap<u64, Place>) -> Code
         // The results of a call have neighbouring places. All arguments are copied before the results are written.
         let reused = (count == 1).then(|| free.pop()).flatten();
         let to = reused.unwrap_or_else(|| {
-            next += count as Place;
-            next - count as Place
+            next += count as FrameIndex;
+            next - count as FrameIndex
         });
         for value in first..first + count {
-            place[value] = to + (value - first) as Place;
+            place[value] = to + (value - first) as FrameIndex;
             if last_use[value] == number {
                 free.push(place[value]);
             }
@@ -276,7 +276,7 @@ fn in_runs(list: &List) -> Vec<(usize, Operation)> {
     for &operation in &list.operations {
         let operands = list.operands(operation);
         let ready = operands.map(|Value(value)| turns[value as usize]).max();
-        let (ready, kind) = (ready.unwrap_or(0), Kind::of(operation) as usize);
+        let (ready, kind) = (ready.unwrap_or(0), OperationKind::of(operation) as usize);
         let turn = ready + (KINDS + kind - ready % KINDS) % KINDS;
         ordered.push((turn, (next, operation)));
         let first = next;
@@ -354,9 +354,9 @@ impl<T: Real> Execute<T> for Interpreter<T> {
 /// The results of a list by itself, as tests need it. `inputs` are the parameters, the values derived from them, the
 /// time and the state.
 pub fn alone(list: &List, inputs: [&[f64]; 4]) -> Vec<f64> {
-    let mut starts = [list.constants.len() as Place; 5];
+    let mut starts = [list.constants.len() as FrameIndex; 5];
     for (i, input) in inputs.iter().enumerate() {
-        starts[i + 1] = starts[i] + input.len() as Place;
+        starts[i + 1] = starts[i] + input.len() as FrameIndex;
     }
     let [parameters, derived, time, state, rest] = starts;
     let layout = Layout {
@@ -384,7 +384,7 @@ pub fn alone(list: &List, inputs: [&[f64]; 4]) -> Vec<f64> {
 /// The number of runs of one kind of operation in a list, in its own order and in that in which they are executed.
 pub fn count_runs(list: &List) -> [usize; 2] {
     let runs = |operations: &mut dyn Iterator<Item = Operation>| {
-        let kinds: Vec<Kind> = operations.map(Kind::of).collect();
+        let kinds: Vec<OperationKind> = operations.map(OperationKind::of).collect();
         kinds.chunk_by(|a, b| a == b).count()
     };
     [
@@ -452,24 +452,24 @@ impl<T: Real> Task for Runs<'_, T> {
                 };
             }
             match run.kind {
-                Kind::Neg => each!(a: -a),
-                Kind::Add => each!(a b: a + b),
-                Kind::Sub => each!(a b: a - b),
-                Kind::Mul => each!(a b: a * b),
-                Kind::Div => each!(a b: a / b),
-                Kind::MulAdd => each!(a b c: a.mul_add(b, c)),
-                Kind::Sqrt => each!(a: a.sqrt()),
-                Kind::SinCos => {
+                OperationKind::Neg => each!(a: -a),
+                OperationKind::Add => each!(a b: a + b),
+                OperationKind::Sub => each!(a b: a - b),
+                OperationKind::Mul => each!(a b: a * b),
+                OperationKind::Div => each!(a b: a / b),
+                OperationKind::MulAdd => each!(a b c: a.mul_add(b, c)),
+                OperationKind::Sqrt => each!(a: a.sqrt()),
+                OperationKind::SinCos => {
                     for step in steps {
                         let (sin, cos) = call::sin_cos(frame[step.a as usize]);
                         frame[step.to as usize] = sin;
                         frame[step.to as usize + 1] = cos;
                     }
                 }
-                Kind::Atan2 => each!(a b: call::atan2(a, b)),
-                Kind::Max => each!(a b: a.max(b)),
-                Kind::Min => each!(a b: a.min(b)),
-                Kind::Call => {
+                OperationKind::Atan2 => each!(a b: call::atan2(a, b)),
+                OperationKind::Max => each!(a b: a.max(b)),
+                OperationKind::Min => each!(a b: a.min(b)),
+                OperationKind::Call => {
                     for step in steps {
                         let call = &code.calls[step.a as usize];
                         let places = &code.arguments[call.arguments.0..call.arguments.1];

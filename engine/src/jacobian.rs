@@ -39,16 +39,16 @@ pub(crate) fn jacobian<T: Real>(shared: &Arc<Shared>) -> Box<dyn Jacobian<T>> {
 /// An implementation with several columns at once, if there is machine code for it.
 #[cfg(target_arch = "aarch64")]
 fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
-    native::there::<Dual<Array2>>()
+    native::has_machine_code::<Dual<Array2>>()
         .then(|| -> Box<dyn Jacobian<f64>> { Box::new(Differentiated::<f64, Array2>::new(shared)) })
 }
 
 /// An implementation with several columns at once, if there is machine code for it.
 #[cfg(not(target_arch = "aarch64"))]
 fn several(shared: &Arc<Shared>) -> Option<Box<dyn Jacobian<f64>>> {
-    if Array8::there() && native::there::<Dual<Array8>>() {
+    if Array8::is_available() && native::has_machine_code::<Dual<Array8>>() {
         Some(Box::new(Differentiated::<f64, Array8>::new(shared)))
-    } else if Array4::there() && native::there::<Dual<Array4>>() {
+    } else if Array4::is_available() && native::has_machine_code::<Dual<Array4>>() {
         Some(Box::new(Differentiated::<f64, Array4>::new(shared)))
     } else {
         None

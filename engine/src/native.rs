@@ -76,7 +76,7 @@ pub fn target<T: Real>() -> Option<Target> {
 }
 
 /// True if there is machine code over this scalar.
-pub fn there<T: Real>() -> bool {
+pub fn has_machine_code<T: Real>() -> bool {
     target::<T>().is_some()
 }
 

@@ -36,7 +36,7 @@ pub fn target<T: Real>() -> Option<std::convert::Infallible> {
 }
 
 /// Returns false: no scalar has machine code.
-pub fn there<T: Real>() -> bool {
+pub fn has_machine_code<T: Real>() -> bool {
     false
 }
 

@@ -1,6 +1,6 @@
 //! How an FMU is integrated.
 
-use bryant_runtime::{Formula, Method, Pace, Settings, Tolerances};
+use bryant_runtime::{Formula, Integrator, Pace, Settings, Tolerances};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
@@ -55,18 +55,18 @@ impl Setting {
     }
 
     /// The integrator, with the tolerance of the importer if it gives one; `None` if its name is not known.
-    pub fn method(&self, tolerance: Option<f64>) -> Option<Method> {
+    pub fn method(&self, tolerance: Option<f64>) -> Option<Integrator> {
         let formula = Formula::named(&self.formula)?;
         if let Some(step) = self.step {
-            return Some(Method::fixed(formula, step));
+            return Some(Integrator::fixed(formula, step));
         }
         let tolerance = tolerance.or(self.tolerance);
         let tolerances = tolerance
             .map_or_else(Tolerances::default, Tolerances::of)
             .calm();
         Some(match self.switches {
-            true => Method::switching(formula, tolerances),
-            false => Method::adaptive(formula, tolerances),
+            true => Integrator::switching(formula, tolerances),
+            false => Integrator::adaptive(formula, tolerances),
         })
     }
 

@@ -11,7 +11,7 @@
 
 use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::effect;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::program;
 use std::fmt::Write as _;
 use std::path::Path;
@@ -95,7 +95,7 @@ fn alone(file: &Path, effects: bool) -> Result<f64, Failed> {
 fn one(file: &Path, effects: bool) -> Result<(), Failed> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     let begin = processor();
-    let scene = bryant_generator::read_scene(file)?;
+    let scene = bryant_generator::read_annotated(file)?;
     let read = processor();
     if effects {
         let variants = without_effects(&scene);
@@ -139,9 +139,12 @@ fn one(file: &Path, effects: bool) -> Result<(), Failed> {
 }
 
 /// Counts the operations of a scene without each of its effects; returns the number of variants.
-fn without_effects(scene: &Scene) -> usize {
+fn without_effects(scene: &AnnotatedModel) -> usize {
     let mut variants = 0;
-    for entry in effect::of_scene(scene).iter().filter(|entry| entry.is_in) {
+    for entry in effect::of_annotated_model(scene)
+        .iter()
+        .filter(|entry| entry.is_in)
+    {
         let Some(variant) = entry
             .effect
             .and_then(|effect| effect::without(&scene.model, effect))

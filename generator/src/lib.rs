@@ -71,4 +71,4 @@ pub mod urdf;
 
 pub use config::{Config, Error, Generated};
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use read::{read, read_scene, read_scene_str, read_str, read_without_sources};
+pub use read::{read, read_annotated, read_annotated_str, read_str, read_without_sources};

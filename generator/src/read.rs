@@ -5,8 +5,8 @@ use crate::diagnostic::Diagnostics;
 use crate::joint;
 use crate::law::{self, ForceKind};
 use crate::model::Model;
+use crate::model::annotated_model::AnnotatedModel;
 use crate::model::resolve::{self, Kinds, Resolved};
-use crate::model::scene::Scene;
 use crate::model_text::read_model;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -81,10 +81,10 @@ pub fn read_without_sources(
 ///
 /// # Errors
 /// Every problem found, with its place.
-pub fn read_scene(path: &Path) -> Result<Scene, Diagnostics> {
+pub fn read_annotated(path: &Path) -> Result<AnnotatedModel, Diagnostics> {
     let text = read_model(path)?;
-    let mut scene =
-        read_scene_str(&text.name, &text.text, &read_file).map_err(|found| text.in_file(found))?;
+    let mut scene = read_annotated_str(&text.name, &text.text, &read_file)
+        .map_err(|found| text.in_file(found))?;
     scene.notes = text.notes().to_vec();
     if !text.is_of_file() {
         scene.turn_lines(|line| text.line_of_file(line));
@@ -96,13 +96,13 @@ pub fn read_scene(path: &Path) -> Result<Scene, Diagnostics> {
 ///
 /// # Errors
 /// Every problem found, with its place.
-pub fn read_scene_str(
+pub fn read_annotated_str(
     name: &str,
     text: &str,
     loader: &dyn Fn(&Path) -> io::Result<String>,
-) -> Result<Scene, Diagnostics> {
+) -> Result<AnnotatedModel, Diagnostics> {
     let (resolved, loaded) = resolve(name, text, loader, true)?;
-    Ok(Scene::of(resolved, loaded))
+    Ok(AnnotatedModel::of(resolved, loaded))
 }
 
 fn resolve(

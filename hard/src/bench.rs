@@ -1,7 +1,7 @@
 //! The workbench of a case, which runs scenes and records checks.
 
 use crate::case::{Bound, Check, Found};
-use crate::scene::Scene;
+use crate::case_model::CaseModel;
 use bryant_generator::expression::Function;
 use bryant_generator::model::Model;
 use bryant_runtime::Report;
@@ -14,7 +14,7 @@ pub trait Engine: Sync {
     ///
     /// # Errors
     /// The scene is not a valid model, or does not compile. A failed run is not an error.
-    fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble>;
+    fn run(&self, scene: &CaseModel, job: &Job) -> Result<Run, Trouble>;
 
     /// The functions that the equations of a model call, such as its curves; NaN for a user function, which only
     /// compiled code can call.
@@ -177,7 +177,7 @@ impl<'a> Bench<'a> {
     ///
     /// # Errors
     /// The scene is not a valid model, or does not compile.
-    pub fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
+    pub fn run(&self, scene: &CaseModel, job: &Job) -> Result<Run, Trouble> {
         self.engine.run(scene, job)
     }
 
@@ -185,7 +185,7 @@ impl<'a> Bench<'a> {
     ///
     /// # Errors
     /// Those of [`Bench::run`], or the run failed.
-    pub fn succeed(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
+    pub fn succeed(&self, scene: &CaseModel, job: &Job) -> Result<Run, Trouble> {
         let run = self.engine.run(scene, job)?;
         run.report()?;
         Ok(run)

@@ -3,7 +3,7 @@
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
 use crate::jobs::fixed;
-use crate::{Scene, scene};
+use crate::{CaseModel, scene};
 use bryant_runtime::Formula;
 use bryant_runtime::program::Job;
 
@@ -142,7 +142,7 @@ fn steps_above_the_limit(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 }
 
 fn energy_out_of_nothing(bench: &mut Bench<'_>) -> Result<(), Trouble> {
-    let scene: Scene = scene!("oscillator");
+    let scene: CaseModel = scene!("oscillator");
     for h in [0.5, 0.2, 0.1f64] {
         bench.variant(format!("h = {h}"));
         // a whole number of steps between samples

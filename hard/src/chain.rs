@@ -1,7 +1,7 @@
 //! Chains of elements as models: makes their YAML and random states.
 
+use crate::case_model::CaseModel;
 use crate::random::Random;
-use crate::scene::Scene;
 use bryant_generator::model::{ElementId, Model};
 use bryant_generator::motion::Layout;
 use bryant_generator::motion::ball::Orientation;
@@ -24,7 +24,7 @@ pub struct Link {
 
 /// Dimension and coordinates of a chain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum ChainKind {
     /// Motion in the x–z plane.
     Plane,
     /// In space, orientation by unit quaternions.
@@ -33,16 +33,16 @@ pub enum Kind {
     Bryant,
 }
 
-impl Kind {
+impl ChainKind {
     /// All kinds.
-    pub const ALL: [Kind; 3] = [Kind::Plane, Kind::Quaternion, Kind::Bryant];
+    pub const ALL: [ChainKind; 3] = [ChainKind::Plane, ChainKind::Quaternion, ChainKind::Bryant];
 
     /// The name for people.
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Plane => "plane",
-            Kind::Quaternion => "space, quaternions",
-            Kind::Bryant => "space, Bryant angles",
+            ChainKind::Plane => "plane",
+            ChainKind::Quaternion => "space, quaternions",
+            ChainKind::Bryant => "space, Bryant angles",
         }
     }
 }
@@ -51,7 +51,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// Dimension and coordinates.
-    pub kind: Kind,
+    pub kind: ChainKind,
     /// True if the first joint is free; else it is fixed.
     pub free: bool,
     /// True if a force and a moment act on the last element. An element without loads is eliminated in a cheaper way.
@@ -73,7 +73,7 @@ pub fn general(random: &mut Random, mass: f64) -> Link {
 }
 
 /// The model of a chain under gravity.
-pub fn scene(setting: Setting, links: &[Link]) -> Scene {
+pub fn scene(setting: Setting, links: &[Link]) -> CaseModel {
     let mut text = tree(setting, links);
     let vector = |v| vector(setting.kind, v);
     let gravity = vector([0.0, 0.0, -9.81]);
@@ -84,7 +84,7 @@ pub fn scene(setting: Setting, links: &[Link]) -> Scene {
     if setting.loaded {
         let last = links.len() - 1;
         let moment = match setting.kind {
-            Kind::Plane => "0.7".to_owned(),
+            ChainKind::Plane => "0.7".to_owned(),
             _ => vector([0.3, 0.7, -0.4]),
         };
         let (at, force) = (vector([0.1, -0.05, 0.2]), vector([3.0, -2.0, 5.0]));
@@ -93,13 +93,13 @@ pub fn scene(setting: Setting, links: &[Link]) -> Scene {
             "  - {{ load: pull, on: chain/e{last}, at: {at}, force: {force}, moment: {moment} }}"
         );
     }
-    Scene::new(format!("chain of {}", links.len()), text)
+    CaseModel::new(format!("chain of {}", links.len()), text)
 }
 
 /// The model of a free chain without any force, with these angular velocities at the start.
-pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
+pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> CaseModel {
     let setting = Setting {
-        kind: Kind::Quaternion,
+        kind: ChainKind::Quaternion,
         free: true,
         loaded: false,
     };
@@ -108,13 +108,13 @@ pub fn afloat(links: &[Link], rates: &[[f64; 3]]) -> Scene {
     for (k, rate) in rates.iter().enumerate() {
         let _ = writeln!(text, "        e{k}: {}", vector(setting.kind, *rate));
     }
-    Scene::new(format!("chain of {} afloat", links.len()), text)
+    CaseModel::new(format!("chain of {} afloat", links.len()), text)
 }
 
 /// A vector with two or three components, depending on the dimension; "{:?}" of a number reads back exactly.
-fn vector(kind: Kind, [x, y, z]: [f64; 3]) -> String {
+fn vector(kind: ChainKind, [x, y, z]: [f64; 3]) -> String {
     match kind {
-        Kind::Plane => format!("[{x:?}, {z:?}]"),
+        ChainKind::Plane => format!("[{x:?}, {z:?}]"),
         _ => format!("[{x:?}, {y:?}, {z:?}]"),
     }
 }
@@ -122,11 +122,11 @@ fn vector(kind: Kind, [x, y, z]: [f64; 3]) -> String {
 /// The text of the model up to the elements of its only system.
 fn tree(setting: Setting, links: &[Link]) -> String {
     let vector = |v| vector(setting.kind, v);
-    let planar = setting.kind == Kind::Plane;
+    let planar = setting.kind == ChainKind::Plane;
     let (dimension, coordinates) = match setting.kind {
-        Kind::Plane => (2, ""),
-        Kind::Quaternion => (3, "coordinates: quaternion\n"),
-        Kind::Bryant => (3, "coordinates: bryant\n"),
+        ChainKind::Plane => (2, ""),
+        ChainKind::Quaternion => (3, "coordinates: quaternion\n"),
+        ChainKind::Bryant => (3, "coordinates: bryant\n"),
     };
     let reference = if setting.free { "free" } else { "fixed" };
     let mut text = format!(

@@ -2,7 +2,7 @@
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
-use crate::chain::{Kind, Setting, general};
+use crate::chain::{ChainKind, Setting, general};
 use crate::random::Random;
 use crate::survey::Survey;
 
@@ -22,7 +22,7 @@ fn accelerations(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         true => (1..=20).chain((30..=200).step_by(10)).collect(),
     };
     let seeds = if bench.full() { 3 } else { 1 };
-    for kind in Kind::ALL {
+    for kind in ChainKind::ALL {
         for loaded in [false, true] {
             let longest = counts.iter().max().copied().unwrap_or(0);
             let load = if loaded {

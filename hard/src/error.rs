@@ -109,14 +109,14 @@ pub fn smallest_pivot(tree: &Tree, q: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chain::{Kind, Setting, general, random_state, scene};
+    use crate::chain::{ChainKind, Setting, general, random_state, scene};
     use crate::evaluate::Accelerations;
     use crate::random::Random;
 
     /// An acceleration with the error δ has the residual S δ: the measured error is δ, and no more.
     #[test]
     fn a_disturbance_is_found_at_its_size() {
-        for kind in Kind::ALL {
+        for kind in ChainKind::ALL {
             let mut random = Random::new(3);
             let links: Vec<_> = (0..4).map(|_| general(&mut random, 2.0)).collect();
             let setting = Setting {

@@ -3,9 +3,9 @@
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
+use crate::case_model::CaseModel;
 use crate::evaluate::{Accelerations, Precise};
 use crate::random::Random;
-use crate::scene::Scene;
 use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::evaluate::{Evaluator, Inputs, Scalar};
@@ -236,7 +236,7 @@ fn model(random: &mut Random, reference: &str, links: &[Link]) -> Result<Model, 
         );
     }
     text += "forces: [{ field: gravity, acceleration: [1, 2, -9.81] }]\nrun: { duration: 1 s, every: 0.1 s }\n";
-    let scene = Scene::new("chain", text);
+    let scene = CaseModel::new("chain", text);
     scene
         .model()
         .map_err(|problems| Trouble::Refused(problems.to_string()))

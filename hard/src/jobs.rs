@@ -1,12 +1,12 @@
 //! Jobs that several cases use, and their names.
 
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 
 /// A job with fixed steps of this length \[s\], and otherwise the settings of the scene.
 pub fn fixed(formula: Formula, step: f64) -> Job {
     Job {
-        method: Some(Method::fixed(formula, step)),
+        method: Some(Integrator::fixed(formula, step)),
         ..Job::default()
     }
 }
@@ -25,7 +25,7 @@ pub fn many(formula: Formula, step: f64, count: f64, samples: f64) -> Job {
 /// A job with steps by error control, and otherwise the settings of the scene.
 pub fn adaptive(formula: Formula, tolerances: Tolerances) -> Job {
     Job {
-        method: Some(Method::adaptive(formula, tolerances)),
+        method: Some(Integrator::adaptive(formula, tolerances)),
         ..Job::default()
     }
 }

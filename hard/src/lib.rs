@@ -11,13 +11,13 @@
 pub mod balance;
 pub mod bench;
 pub mod case;
+pub mod case_model;
 pub mod chain;
 pub mod error;
 pub mod evaluate;
 pub mod meeting;
 pub mod random;
 pub mod rounding;
-pub mod scene;
 pub mod survey;
 pub mod symmetric;
 
@@ -40,7 +40,7 @@ mod tree;
 
 pub use bench::{Bench, Call, Engine, Run, Trouble};
 pub use case::{Bound, Case, Check, Found, Group};
-pub use scene::Scene;
+pub use case_model::CaseModel;
 
 /// All cases, group by group.
 pub fn cases() -> Vec<Case> {

@@ -5,7 +5,7 @@ mod singular;
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
-use crate::chain::{Kind, Link, Setting, general};
+use crate::chain::{ChainKind, Link, Setting, general};
 use crate::random::Random;
 use crate::survey::Survey;
 
@@ -70,7 +70,7 @@ type Maker<'a> = &'a dyn Fn(&mut Random, usize, usize) -> Link;
 /// Tests chains of these elements, in all coordinates, free and fixed, with and without a load.
 fn over(bench: &mut Bench<'_>, counts: &[usize], make: Maker<'_>) -> Result<(), Trouble> {
     let mut survey = Survey::default();
-    for kind in Kind::ALL {
+    for kind in ChainKind::ALL {
         for loaded in [false, true] {
             for (i, &count) in counts.iter().enumerate() {
                 let mut random = Random::new(count as u64);

@@ -9,9 +9,9 @@ mod shapes;
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case as HardCase, Group};
+use crate::case_model::CaseModel;
 use crate::jobs::adaptive;
 use crate::random::Random;
-use crate::scene::Scene;
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Tolerances};
 use std::f64::consts::TAU;
@@ -125,7 +125,7 @@ pub struct Shape {
     /// Its name.
     pub name: &'static str,
     /// Its model.
-    pub scene: Scene,
+    pub scene: CaseModel,
     /// Its scenes; all of them clearly meet something or clearly meet nothing.
     pub cases: Vec<Case>,
 }
@@ -141,7 +141,7 @@ pub fn shapes(scenes: usize) -> Vec<Shape> {
         Shape {
             name,
             cases: cases.collect(),
-            scene: Scene::new(name, text),
+            scene: CaseModel::new(name, text),
         }
     })
     .collect()

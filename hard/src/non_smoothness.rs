@@ -8,7 +8,7 @@ use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
 use crate::jobs::{many, name, name_with_kinks, with_kinks};
 use crate::measure::{largest, steps};
-use crate::{Scene, scene};
+use crate::{CaseModel, scene};
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Tolerances};
 
@@ -393,7 +393,7 @@ fn box_at_rest(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 }
 
 fn over_the_corner(bench: &mut Bench<'_>) -> Result<(), Trouble> {
-    let scene: Scene = scene!("corner");
+    let scene: CaseModel = scene!("corner");
     let omega = (1e5f64 / 2.0).sqrt();
     for (formula, tolerance, locate) in [
         (Formula::Dopri5, 1e-8, false),

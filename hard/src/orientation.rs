@@ -2,9 +2,9 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::case_model::CaseModel;
 use crate::jobs::{adaptive, many, name, with_kinks};
 use crate::measure::{error_of_speed, largest, steps};
-use crate::scene::Scene;
 use crate::tree::Tree;
 use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Tolerances};
@@ -58,7 +58,7 @@ pub const CASES: &[Case] = &[
 ];
 
 /// A free body whose centre of gravity is its origin; `rest` is the text that follows.
-fn body(name: &str, coordinates: &str, inertia: [f64; 3], rate: [f64; 3], rest: &str) -> Scene {
+fn body(name: &str, coordinates: &str, inertia: [f64; 3], rate: [f64; 3], rest: &str) -> CaseModel {
     let text = format!(
         "model: {name}
 dimension: 3
@@ -70,7 +70,7 @@ systems:
     start: {{ position: [0, 0, 0.1], rates: {{ body: {rate:?} }} }}
 {rest}"
     );
-    Scene::new(name, text)
+    CaseModel::new(name, text)
 }
 
 /// A point of the body, and an upper bound of its distance from the origin \[m\].

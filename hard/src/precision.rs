@@ -3,9 +3,9 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::case_model::CaseModel;
 use crate::jobs::{adaptive, fixed, name};
 use crate::measure::{largest, steps};
-use crate::scene::Scene;
 use crate::tree::{Tree, rotation};
 use bryant_runtime::program::{Job, Scalar};
 use bryant_runtime::{Formula, Tolerances};
@@ -76,7 +76,7 @@ impl Units {
 }
 
 /// Two rotating links that fall onto a rough plate; everything is moved by `away` \[m\] along both axes.
-fn links(name: &str, units: Units, away: f64) -> Scene {
+fn links(name: &str, units: Units, away: f64) -> CaseModel {
     let m = |value| units.m(value);
     let kg = |value| units.text(value, 0, 1, "g");
     let speed = |value| units.text(value, 1, 0, "mm/s");
@@ -160,7 +160,7 @@ forces:
         contact("near", "upper", 0.05),
         contact("far", "lower", 0.1),
     );
-    Scene::new(name, text)
+    CaseModel::new(name, text)
 }
 
 const SI: Units = Units {
@@ -298,7 +298,7 @@ fn single_precision(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 /// the method.
 fn growth(
     bench: &Bench<'_>,
-    (tree, scene): (&Tree, &Scene),
+    (tree, scene): (&Tree, &CaseModel),
     job: &Job,
     reference: &Run,
 ) -> Result<f64, Trouble> {
@@ -383,7 +383,7 @@ fn order_root_direction(bench: &mut Bench<'_>) -> Result<(), Trouble> {
 const START: [&str; 4] = ["upper_angle", "lower_angle", "upper_rate", "lower_rate"];
 
 /// A double pendulum with an arbitrary start.
-fn pendulum() -> Scene {
+fn pendulum() -> CaseModel {
     let text = "model: pendulum-there-and-back
 dimension: 2
 parameters:
@@ -402,7 +402,7 @@ forces:
   - { field: gravity, acceleration: [0, -9.81 m/s^2] }
 run: { duration: 3 s, every: 0.1 s }
 ";
-    Scene::new("pendulum-there-and-back", text)
+    CaseModel::new("pendulum-there-and-back", text)
 }
 
 fn time_reversed(bench: &mut Bench<'_>) -> Result<(), Trouble> {

@@ -11,10 +11,10 @@
 
 use crate::bench::{Bench, Run, Trouble};
 use crate::case::{Case, Group};
+use crate::case_model::CaseModel;
 use crate::random::Random;
-use crate::scene::Scene;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use std::fmt::Write;
 
 /// The case of this file.
@@ -108,7 +108,7 @@ fn joints(random: &mut Random) -> Vec<Joint> {
 
 /// The text of a chain. Stiffnesses are numbers instead of curves: a curve through points at ±1 m rounds its argument
 /// to 10⁻¹⁶ m, so a spring of 10¹⁷ N/m would jump by 10 N, more than the load.
-fn scene(name: &str, joints: &[Joint]) -> Scene {
+fn scene(name: &str, joints: &[Joint]) -> CaseModel {
     let mut elements = String::new();
     let mut forces = String::new();
     let mut outputs = String::new();
@@ -149,7 +149,7 @@ fn scene(name: &str, joints: &[Joint]) -> Scene {
             "  - {{ name: a{i}, of: c/e{i}, what: acceleration, component: x }}"
         );
     }
-    Scene::new(
+    CaseModel::new(
         name,
         format!(
             "model: chain\ndimension: 2\nsystems:\n  - name: c\n    reference: fixed\n    elements:\n{elements}forces:\n{forces}outputs:\n{outputs}\
@@ -426,7 +426,7 @@ fn errors(
 /// frequency ω has an error of ω 10⁻⁷ m/s. In a chain with small loads this exceeds the promise.
 fn promised(
     bench: &Bench<'_>,
-    scene: &Scene,
+    scene: &CaseModel,
     joints: &[Joint],
     first: &Run,
 ) -> Result<(bool, Run), Trouble> {
@@ -439,7 +439,7 @@ fn promised(
     for times in 1..=6 {
         let tolerances = Tolerances::of(Tolerances::default().relative / 10f64.powi(times));
         let job = Job {
-            method: Some(Method::switching(Formula::Tsit5, tolerances)),
+            method: Some(Integrator::switching(Formula::Tsit5, tolerances)),
             ..Job::default()
         };
         let next = bench.succeed(scene, &job)?;

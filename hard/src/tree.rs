@@ -1,6 +1,6 @@
 //! Trees in space that can be written in several equivalent ways.
 
-use crate::scene::Scene;
+use crate::case_model::CaseModel;
 use std::fmt::Write as _;
 
 /// A free tree of rigid elements under gravity, with its state at the start.
@@ -224,7 +224,7 @@ impl Tree {
     }
 
     /// A scene with only this tree; outputs are the absolute positions of all centres of gravity ("hub x").
-    pub fn scene(&self, name: &str) -> Scene {
+    pub fn scene(&self, name: &str) -> CaseModel {
         let mut outputs = String::new();
         self.outputs("tree", "", &mut outputs);
         let text = format!(
@@ -233,11 +233,11 @@ impl Tree {
             self.system("tree"),
             self.field("tree")
         );
-        Scene::new(name, text)
+        CaseModel::new(name, text)
     }
 
     /// A scene with two trees that do not touch; the outputs of the second begin with "other".
-    pub fn scene_of_two(name: &str, a: &Tree, b: &Tree) -> Scene {
+    pub fn scene_of_two(name: &str, a: &Tree, b: &Tree) -> CaseModel {
         let mut outputs = String::new();
         a.outputs("tree", "", &mut outputs);
         b.outputs("second", "other ", &mut outputs);
@@ -249,7 +249,7 @@ impl Tree {
             a.field("tree"),
             b.field("second"),
         );
-        Scene::new(name, text)
+        CaseModel::new(name, text)
     }
 
     fn system(&self, name: &str) -> String {

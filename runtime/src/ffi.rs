@@ -57,7 +57,7 @@ pub fn function<F: Adapter<A, R>, const A: usize, const R: usize>(
             _ => None,
         }
     }
-    let fuses = <Alone<f64, Fused> as Instructions>::there();
+    let fuses = <Alone<f64, Fused> as Instructions>::is_available();
     match *Base::ALL.get(base as usize)? {
         Base::Double => over::<F, f64, A, R>(order),
         Base::Single => over::<F, f32, A, R>(order),

@@ -208,7 +208,7 @@ pub use section::Section;
 #[cfg(feature = "std")]
 pub use simulate::simulate;
 pub use simulate::{
-    Adaptive, Balance, Cause, Diagnostic, ENERGY_LIMIT, Method, Pace, Problem, Report, Sample,
+    Adaptive, Balance, Cause, Diagnostic, ENERGY_LIMIT, Integrator, Pace, Problem, Report, Sample,
     SampleKind, Settings, Watch,
 };
 pub use version::{GENERATED_CODE_VERSION, check_generated_code_version};

@@ -11,7 +11,7 @@
 use super::difference::largest;
 use crate::interrupt;
 use crate::simulation::{Recording, Runs};
-use bryant_runtime::Method;
+use bryant_runtime::Integrator;
 use bryant_runtime::program::{Job, Reading, Start};
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -130,7 +130,7 @@ fn outputs(model: &dyn Runs, job: &Job, t: f64, state: &[f64]) -> Option<Vec<f64
         // computes only the start of a run, by a method that accepts any length
         duration: Some(t + 1e-3),
         every: Some(1e-3),
-        method: Some(Method::default()),
+        method: Some(Integrator::default()),
         reading: Reading::default(),
         ..job.clone()
     };

@@ -26,7 +26,7 @@ pub struct Norm {
 #[derive(Clone, Debug, PartialEq)]
 struct Entry {
     name: String,
-    kind: Kind,
+    kind: EntryKind,
     /// Index of the entry; for a quaternion, of the first of its four numbers.
     index: usize,
     /// The scale of its error.
@@ -34,7 +34,7 @@ struct Entry {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+enum EntryKind {
     Position,
     Angle,
     Orientation,
@@ -79,25 +79,25 @@ impl Norm {
         };
         for (index, name) in names.coordinates.iter().enumerate() {
             match component(name).as_str() {
-                "qw" => add(name.trim_end_matches(".qw"), Kind::Orientation, index),
+                "qw" => add(name.trim_end_matches(".qw"), EntryKind::Orientation, index),
                 "qx" | "qy" | "qz" => {}
-                "x" | "y" | "z" => add(name, Kind::Position, index),
-                _ => add(name, Kind::Angle, index),
+                "x" | "y" | "z" => add(name, EntryKind::Position, index),
+                _ => add(name, EntryKind::Angle, index),
             }
         }
         let first = names.coordinates.len();
         for (index, name) in names.velocities.iter().enumerate() {
             let kind = match component(name).as_str() {
-                "vx" | "vy" | "vz" => Kind::Velocity,
-                _ => Kind::AngularVelocity,
+                "vx" | "vy" | "vz" => EntryKind::Velocity,
+                _ => EntryKind::AngularVelocity,
             };
             add(name, kind, first + index);
         }
         let first = first + names.velocities.len();
         for (index, name) in names.auxiliaries.iter().enumerate() {
-            add(name, Kind::Auxiliary(index), first + index);
+            add(name, EntryKind::Auxiliary(index), first + index);
         }
-        let largest = |kind: Kind| {
+        let largest = |kind: EntryKind| {
             let same = entries.iter().filter(|e| e.kind == kind);
             same.fold(0.0f64, |m, e| m.max(e.scale))
         };
@@ -142,7 +142,7 @@ impl Norm {
 impl Entry {
     fn difference(&self, a: &[f64], b: &[f64]) -> f64 {
         match self.kind {
-            Kind::Orientation => angle_between(a, b, self.index),
+            EntryKind::Orientation => angle_between(a, b, self.index),
             _ => match (a.get(self.index), b.get(self.index)) {
                 (Some(a), Some(b)) => (a - b).abs(),
                 _ => f64::NAN,
@@ -152,7 +152,7 @@ impl Entry {
 }
 
 /// The extent of the motion of an entry during a run.
-fn extent(kind: Kind, index: usize, states: &[Vec<f64>]) -> f64 {
+fn extent(kind: EntryKind, index: usize, states: &[Vec<f64>]) -> f64 {
     let entry = || {
         states
             .iter()
@@ -160,21 +160,21 @@ fn extent(kind: Kind, index: usize, states: &[Vec<f64>]) -> f64 {
     };
     let fold = |pick: fn(f64, f64) -> f64, start| entry().fold(start, pick);
     match kind {
-        Kind::Position | Kind::Angle => {
+        EntryKind::Position | EntryKind::Angle => {
             let (low, high) = (
                 fold(f64::min, f64::INFINITY),
                 fold(f64::max, f64::NEG_INFINITY),
             );
             (high - low).max(0.0)
         }
-        Kind::Orientation => match states.first() {
+        EntryKind::Orientation => match states.first() {
             Some(start) => {
                 let angles = states.iter().map(|y| angle_between(start, y, index));
                 angles.fold(0.0, f64::max)
             }
             None => 0.0,
         },
-        Kind::Velocity | Kind::AngularVelocity | Kind::Auxiliary(_) => {
+        EntryKind::Velocity | EntryKind::AngularVelocity | EntryKind::Auxiliary(_) => {
             entry().fold(0.0, |m, v| m.max(v.abs()))
         }
     }

@@ -36,7 +36,7 @@ pub struct Range {
 
 /// The properties of a scene that decide which settings can differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Scene {
+pub struct ModelFeatures {
     /// The motion comes to kinks of force laws.
     pub kinks: bool,
     /// The equations have sines and cosines.
@@ -147,7 +147,7 @@ impl Range {
 }
 
 /// All series of a plan.
-pub fn series(request: &Request, scene: Scene) -> Vec<Series> {
+pub fn series(request: &Request, scene: ModelFeatures) -> Vec<Series> {
     let mut all = Vec::new();
     for &Scheme { formula, switches } in &request.schemes {
         for (scalar, locate) in [

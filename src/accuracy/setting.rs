@@ -1,7 +1,7 @@
 //! A setting is one way to compute a motion: formula, pace, scalar, kinks.
 
 use bryant_runtime::program::{Job, RunError, Scalar};
-use bryant_runtime::{Adaptive, Formula, Method, Report, Tolerances};
+use bryant_runtime::{Adaptive, Formula, Integrator, Report, Tolerances};
 
 /// The setting of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +108,7 @@ impl Setting {
     }
 
     /// The method of a job.
-    pub fn method(&self) -> Method {
+    pub fn method(&self) -> Integrator {
         let pace = match self.pace {
             Pace::Step(step) => bryant_runtime::Pace::Fixed(step),
             Pace::Tolerance(relative) => bryant_runtime::Pace::Adaptive(Adaptive {
@@ -116,7 +116,7 @@ impl Setting {
                 ..Adaptive::of(Tolerances::of(relative).calm())
             }),
         };
-        Method {
+        Integrator {
             formula: self.formula,
             pace,
         }

@@ -11,7 +11,7 @@
 use super::conclusion::bounded_by_stability;
 use super::fastest::{Fastest, fastest};
 use super::front::Cost;
-use super::plan::{self, Request, Scene, Series};
+use super::plan::{self, ModelFeatures, Request, Series};
 use super::point::{Done, Measure, Point, Status, Timing, orders};
 use super::reading::Reading;
 use super::reference::{self, Reference, ReferenceError};
@@ -133,7 +133,7 @@ pub fn study(
     };
     let reference = reference::compute(subject.engine, &subject.job, clock.left(REFERENCE))?;
     progress(Stage::Reference, 1.0);
-    let scene = Scene {
+    let scene = ModelFeatures {
         kinks: reference.report.events > 0,
         sines: has_sines(model),
     };

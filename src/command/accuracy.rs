@@ -17,7 +17,7 @@ use crate::accuracy::setting::{Scheme, time};
 use crate::accuracy::study::{Effort, Stage, Study, StudyError, Subject, study};
 use crate::picture::Format;
 use crate::process::command_line;
-use crate::signature::Kind;
+use crate::signature::ContentKind;
 use crate::{files, interrupt, quantity};
 use bryant_generator::model::Model;
 use bryant_runtime::program::{ErrorKind, Job, RunError};
@@ -345,7 +345,7 @@ impl Arguments {
         };
         let mut outputs = Outputs::of(&found.files, self.replacing);
         if self.json {
-            outputs.take("--json", Path::new("-"), Kind::Table)?;
+            outputs.take("--json", Path::new("-"), ContentKind::Table)?;
         }
         let csv = self.csv.clone();
         let csv = csv.or_else(|| (!self.no_files).then(|| usual("csv")));
@@ -354,14 +354,14 @@ impl Arguments {
             [] => vec![usual("svg"), usual("png")],
             named => named.to_vec(),
         };
-        let named = csv.iter().map(|path| ("--csv", path, Kind::Table));
+        let named = csv.iter().map(|path| ("--csv", path, ContentKind::Table));
         let named = named.chain(
             pictures
                 .iter()
-                .map(|path| ("--picture", path, Kind::Picture)),
+                .map(|path| ("--picture", path, ContentKind::Picture)),
         );
         let page = self.markdown.iter();
-        let page = page.map(|path| ("--markdown", path, Kind::Markdown));
+        let page = page.map(|path| ("--markdown", path, ContentKind::Markdown));
         for (option, path, kind) in named.chain(page) {
             outputs.take(option, path, kind)?;
         }

@@ -6,7 +6,7 @@ pub mod start;
 use crate::scene::mesh::{missing, place};
 use bryant_generator::law::ForceKind;
 use bryant_generator::law::types::{Direction, JointTorque};
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::{Active, Dimension, Model, Shown};
 use start::Start;
 use std::f64::consts::FRAC_PI_2;
@@ -15,7 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 const NEAR: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
 /// The warnings, each a sentence with a remedy.
-pub fn cautions(scene: &Scene) -> Vec<String> {
+pub fn cautions(scene: &AnnotatedModel) -> Vec<String> {
     let model = &scene.model;
     let mut all = middle_angles(model);
     all.extend(bushings(model));
@@ -30,7 +30,7 @@ pub fn cautions(scene: &Scene) -> Vec<String> {
 }
 
 /// Warnings about meshes that are not shown, because they have no file or are on a vehicle that nothing uses.
-pub fn meshes(scene: &Scene) -> Vec<String> {
+pub fn meshes(scene: &AnnotatedModel) -> Vec<String> {
     let caution = |shown: &Shown| {
         let Shown::Mesh(written) = shown else {
             return None;

@@ -10,7 +10,7 @@ use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::equations::Route;
 use bryant_generator::expression::count::Count;
 use bryant_generator::law::ForceKind;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::units::UnitSystem;
 use bryant_generator::model::{Coordinates, Dimension, Model, Parameter, Reference, System};
 use bryant_generator::program::{self, Options};
@@ -341,7 +341,7 @@ fn operations(count: &Count) -> String {
     text
 }
 
-fn as_json(scene: &Scene, costs: &Costs) -> Value {
+fn as_json(scene: &AnnotatedModel, costs: &Costs) -> Value {
     let model = &scene.model;
     let systems: Vec<Value> = model
         .systems

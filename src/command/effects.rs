@@ -11,7 +11,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::build_on_demand::UserForces;
 use crate::equations::{self, Engine};
-use crate::timing::{self, Method};
+use crate::timing::{self, TimedMethod};
 use crate::{interrupt, parallel};
 use bryant_generator::effect::{self, Cost, Effect, Entry, Reason, Variant};
 use bryant_generator::expression::count::Count;
@@ -76,7 +76,7 @@ pub struct Arguments {
 /// A variant of the scene whose equations are derived, and the method whose cost counts.
 struct Derivation {
     variant: Variant,
-    method: Method,
+    method: TimedMethod,
 }
 
 impl Arguments {
@@ -89,7 +89,7 @@ impl Arguments {
             true => None,
             false => users_of(&found, model, terminal)?,
         };
-        let entries = effect::of_scene(&found.scene);
+        let entries = effect::of_annotated_model(&found.scene);
         let entries: Vec<Entry> = entries.into_iter().filter(|e| self.wants(e)).collect();
         let (derivations, derivation_of) = derivations(model, &found.scene.written, &entries);
 
@@ -190,13 +190,13 @@ fn derivations(
     let all = Variant::of(model);
     let of_accelerations = |variant: &Variant| Derivation {
         variant: variant.clone().without_outputs(),
-        method: Method::Accelerations,
+        method: TimedMethod::Accelerations,
     };
     let mut derivations = vec![
         of_accelerations(&all),
         Derivation {
             variant: all.clone(),
-            method: Method::Outputs,
+            method: TimedMethod::Outputs,
         },
         of_accelerations(&Variant::of(&effect::general(written))),
     ];
@@ -234,10 +234,10 @@ fn cost(row: &Row<'_>) -> i64 {
 }
 
 /// The index of the derivation that an effect is compared with.
-fn base(method: Method) -> usize {
+fn base(method: TimedMethod) -> usize {
     match method {
-        Method::Accelerations => SCENE,
-        Method::Outputs => OUTPUTS,
+        TimedMethod::Accelerations => SCENE,
+        TimedMethod::Outputs => OUTPUTS,
     }
 }
 
@@ -297,11 +297,14 @@ impl<'a> Bench<'a> {
             return Ok(());
         }
         let [scene, outputs] = &self.bases;
-        let mut all = vec![(scene, Method::Accelerations), (outputs, Method::Outputs)];
+        let mut all = vec![
+            (scene, TimedMethod::Accelerations),
+            (outputs, TimedMethod::Outputs),
+        ];
         all.extend(engines.iter().map(|(engine, method)| (engine, *method)));
         if let Some(general) = &general {
-            all.push((scene, Method::Accelerations));
-            all.push((general, Method::Accelerations));
+            all.push((scene, TimedMethod::Accelerations));
+            all.push((general, TimedMethod::Accelerations));
         }
         let measured = timing::time(&all);
         for ((place, (_, method)), without) in places.iter().zip(&engines).zip(&measured[2..]) {
@@ -366,10 +369,10 @@ fn missing(rows: &[(Row<'_>, Option<usize>)], timed: bool) -> Option<String> {
 const CALL: i64 = 20;
 
 /// The method whose cost an effect changes.
-fn method(effect: Option<Effect>) -> Method {
+fn method(effect: Option<Effect>) -> TimedMethod {
     match effect {
-        Some(Effect::Output(_)) => Method::Outputs,
-        _ => Method::Accelerations,
+        Some(Effect::Output(_)) => TimedMethod::Outputs,
+        _ => TimedMethod::Accelerations,
     }
 }
 
@@ -378,13 +381,13 @@ fn derivation(model: &Model, entry: &Entry) -> Option<Derivation> {
     let effect = entry.effect.filter(|_| entry.is_in)?;
     let variant = effect::without(model, effect)?;
     Some(match method(entry.effect) {
-        Method::Accelerations => Derivation {
+        TimedMethod::Accelerations => Derivation {
             variant: variant.without_outputs(),
-            method: Method::Accelerations,
+            method: TimedMethod::Accelerations,
         },
-        Method::Outputs => Derivation {
+        TimedMethod::Outputs => Derivation {
             variant,
-            method: Method::Outputs,
+            method: TimedMethod::Outputs,
         },
     })
 }
@@ -406,9 +409,9 @@ fn generate(
     parallel::map(derivations, work, progress)
 }
 
-fn count(cost: &Cost, method: Method) -> &Count {
+fn count(cost: &Cost, method: TimedMethod) -> &Count {
     match method {
-        Method::Accelerations => &cost.accelerations,
-        Method::Outputs => &cost.outputs,
+        TimedMethod::Accelerations => &cost.accelerations,
+        TimedMethod::Outputs => &cost.outputs,
     }
 }

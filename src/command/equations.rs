@@ -13,7 +13,7 @@ use crate::equations::of_lists;
 use crate::evaluation::{self, Evaluation, Function, State};
 use crate::files;
 use crate::notation::Notation;
-use crate::signature::Kind;
+use crate::signature::ContentKind;
 use bryant_generator::Config;
 use bryant_generator::description::load::read_file;
 use bryant_generator::description::tree::MAX_BYTES;
@@ -186,7 +186,7 @@ impl Arguments {
         let files = files.map(|(ending, text)| (directory.join(format!("{name}.{ending}")), text));
         let mut outputs = Outputs::of(read, self.replacing);
         for (path, _) in &files {
-            outputs.take("--out", path, Kind::Source)?;
+            outputs.take("--out", path, ContentKind::Source)?;
         }
         for (path, text) in files {
             files::replace(&path, |out| out.write_all(text.as_bytes())).map_err(Error::system)?;

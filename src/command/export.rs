@@ -14,7 +14,7 @@ use super::parameters::parse_parameters;
 use super::prepare::prepare;
 use super::run::read_start;
 use super::terminal::Terminal;
-use crate::signature::Kind;
+use crate::signature::ContentKind;
 use crate::{files, quantity};
 use bryant_fmu::{ENGINE, SETTING, Setting, Version, description};
 use bryant_runtime::program::Job;
@@ -118,7 +118,7 @@ impl Fmu {
             .clone()
             .unwrap_or_else(|| PathBuf::from(format!("{}.fmu", model.name)));
         let read = found.files.iter().chain(&self.start).chain(&self.library);
-        Outputs::of(read, self.replacing).take("--out", &path, Kind::Fmu)?;
+        Outputs::of(read, self.replacing).take("--out", &path, ContentKind::Fmu)?;
         if let Some((name, _)) = found.user_sources()?.first() {
             return Err(Error::Input(format!(
                 "{name} is a function of yours, and an FMU carries none\n  help: leave out the force, or write it with the laws of the language"

@@ -3,7 +3,7 @@
 use super::Error;
 use super::outputs::{Outputs, Replacing, is_standard};
 use super::terminal::Terminal;
-use crate::signature::{self, Kind};
+use crate::signature::{self, ContentKind};
 use crate::{files, quantity};
 use bryant_generator::human::{JOINTS, NAMES, Neutral, Person, Posture, Sex, Size, Written, yaml};
 use clap::ValueEnum;
@@ -158,7 +158,7 @@ impl Arguments {
         match &self.out {
             Some(path) if !is_standard(path) => {
                 let mut outputs = Outputs::of([], self.replacing);
-                outputs.take("--out", path, Kind::Model)?;
+                outputs.take("--out", path, ContentKind::Model)?;
                 files::replace(path, |out| {
                     out.write_all(signature::signed(&text).as_bytes())
                 })

@@ -4,7 +4,7 @@ use super::Error;
 use super::outputs::{Outputs, Replacing};
 use super::terminal::Terminal;
 use crate::files;
-use crate::signature::{self, Kind};
+use crate::signature::{self, ContentKind};
 use bryant_generator::description::load::{read_file, shown};
 use bryant_generator::model_text::{ModelText, read_text};
 use bryant_generator::read;
@@ -105,7 +105,7 @@ impl Arguments {
             None => terminal.print(&imported.text)?,
             Some(path) => {
                 let mut outputs = Outputs::of([&self.file], self.replacing);
-                outputs.take("--out", path, Kind::Model)?;
+                outputs.take("--out", path, ContentKind::Model)?;
                 let text = signature::signed(&imported.text);
                 files::replace(path, |file| file.write_all(text.as_bytes()))
                     .map_err(Error::system)?;

@@ -3,7 +3,7 @@
 use super::Error;
 use crate::accuracy::setting::Scheme;
 use crate::quantity;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
@@ -43,11 +43,13 @@ impl Integration {
     }
 
     /// The integrator and its steps; `None` if the user says nothing about them.
-    pub fn method(&self) -> Result<Option<Method>, Error> {
+    pub fn method(&self) -> Result<Option<Integrator>, Error> {
         let named = self.method.as_deref().and_then(Formula::named);
         Ok(match (named, self.step, self.tolerance) {
             (None, None, None) => None,
-            (formula, Some(step), _) => Some(Method::fixed(formula.unwrap_or(Formula::Rk4), step)),
+            (formula, Some(step), _) => {
+                Some(Integrator::fixed(formula.unwrap_or(Formula::Rk4), step))
+            }
             (Some(formula), None, tolerance) if !formula.estimates_error() => {
                 if tolerance.is_some() {
                     return Err(Error::Input(format!(
@@ -55,15 +57,15 @@ impl Integration {
                         with_tolerances()
                     )));
                 }
-                Some(Method::fixed(formula, CUSTOMARY_STEP))
+                Some(Integrator::fixed(formula, CUSTOMARY_STEP))
             }
             (formula, None, tolerance) => {
                 let tolerances = tolerance
                     .map_or_else(Tolerances::default, Tolerances::of)
                     .calm();
                 Some(match formula {
-                    Some(formula) => Method::adaptive(formula, tolerances),
-                    None => Method::switching(Scheme::DEFAULT.formula, tolerances),
+                    Some(formula) => Integrator::adaptive(formula, tolerances),
+                    None => Integrator::switching(Scheme::DEFAULT.formula, tolerances),
                 })
             }
         })

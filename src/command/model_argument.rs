@@ -6,7 +6,7 @@ use crate::bundled::{self, Bundled};
 use bryant_generator::description::load::{beside, read_file, shown};
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::Model;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::units::UnitSystem;
 use bryant_generator::model_text::read_model;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub struct Found {
     /// The model.
     pub model: Model,
     /// The description that was read: the model, its files, and the places of its items in the text.
-    pub scene: Scene,
+    pub scene: AnnotatedModel,
     /// The files that it was read from; empty for a bundled model.
     pub files: Vec<PathBuf>,
 }
@@ -33,13 +33,13 @@ pub fn find(argument: &str) -> Result<Found, Error> {
             "there is no file {argument}\n  help: a model {bundled} is bundled: give its name without an ending; `bryant models {bundled} --copy .` writes its file here"
         )));
     }
-    let scene = bryant_generator::read_scene(path).map_err(Error::Model)?;
+    let scene = bryant_generator::read_annotated(path).map_err(Error::Model)?;
     let files = scene.read.clone();
     Ok(Found::of(scene, files))
 }
 
 impl Found {
-    fn of(scene: Scene, files: Vec<PathBuf>) -> Self {
+    fn of(scene: AnnotatedModel, files: Vec<PathBuf>) -> Self {
         Found {
             model: scene.model.clone(),
             scene,

@@ -4,7 +4,7 @@
 use super::Error;
 use crate::files;
 use crate::picture::Format;
-use crate::signature::{self, Kind};
+use crate::signature::{self, ContentKind};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use std::path::{Component, Path, PathBuf};
@@ -51,7 +51,7 @@ impl Outputs {
                 "--report -: a report is a page for a browser and is not printed\n  help: name a file, as --report run.html".into(),
             ));
         }
-        self.take("--report", path, Kind::Report)
+        self.take("--report", path, ContentKind::Report)
     }
 
     /// Reserves the place of a result, which is the value of `option` or its default. Must be called before results are
@@ -59,7 +59,7 @@ impl Outputs {
     ///
     /// # Errors
     /// Another result goes to this place, the command reads this file, or this program did not write the file.
-    pub fn take(&mut self, option: &str, path: &Path, kind: Kind) -> Result<(), Error> {
+    pub fn take(&mut self, option: &str, path: &Path, kind: ContentKind) -> Result<(), Error> {
         let place = match is_standard(path) {
             true => PathBuf::from("-"),
             false => files::place(path),
@@ -98,7 +98,7 @@ impl Outputs {
         Ok(())
     }
 
-    fn may_replace(&self, option: &str, path: &Path, kind: Kind) -> Result<(), Error> {
+    fn may_replace(&self, option: &str, path: &Path, kind: ContentKind) -> Result<(), Error> {
         if self.replacing.force || is_standard(path) {
             return Ok(());
         }
@@ -111,7 +111,7 @@ impl Outputs {
                 "{option} would replace {}, which bryant did not write{}\n  help: name another file, or give --force",
                 path.display(),
                 match kind {
-                    Kind::Model => ", or which was changed since",
+                    ContentKind::Model => ", or which was changed since",
                     _ => "",
                 }
             ))),

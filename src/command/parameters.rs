@@ -3,11 +3,14 @@
 use super::Error;
 use super::model_argument::nearest;
 use crate::quantity;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::{Model, Parameter};
 
 /// Reads parameters: their names and values in SI units; each at most once, and within its bounds.
-pub fn parse_parameters(words: &[String], scene: &Scene) -> Result<Vec<(String, f64)>, Error> {
+pub fn parse_parameters(
+    words: &[String],
+    scene: &AnnotatedModel,
+) -> Result<Vec<(String, f64)>, Error> {
     let mut set: Vec<(String, f64)> = Vec::new();
     for word in words {
         let (name, value) = parameter(word, scene)?;
@@ -32,7 +35,7 @@ pub fn values_of(model: &Model, set: &[(String, f64)]) -> Vec<f64> {
 }
 
 /// Reads `name=value` as a parameter of the model, in SI units.
-fn parameter(word: &str, scene: &Scene) -> Result<(String, f64), Error> {
+fn parameter(word: &str, scene: &AnnotatedModel) -> Result<(String, f64), Error> {
     let model = &scene.model;
     let Some((name, value)) = word.split_once('=') else {
         return Err(Error::Input(format!(

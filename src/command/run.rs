@@ -45,7 +45,7 @@ use crate::table::Table;
 use crate::units::{self, Units};
 use crate::{balance, quantity, state_file};
 use bryant_generator::model::Model;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::units::UnitSystem;
 use bryant_runtime::program::{ErrorKind, Finding, Job, RunError};
 use bryant_runtime::response::filter::Standard;
@@ -491,7 +491,7 @@ impl Arguments {
         })
     }
 
-    fn job(&self, scene: &Scene) -> Result<Job, Error> {
+    fn job(&self, scene: &AnnotatedModel) -> Result<Job, Error> {
         let model = &scene.model;
         let method = self.integration.method()?;
         let duration = self.duration.unwrap_or(model.run.duration);

@@ -19,12 +19,12 @@ In VS Code with the extension YAML, and in editors with yaml-language-server, th
   # yaml-language-server: $schema=model.schema.json")]
 pub struct Arguments {
     /// The kind of file
-    #[arg(value_enum, default_value_t = Kind::Model)]
-    of: Kind,
+    #[arg(value_enum, default_value_t = FileKind::Model)]
+    of: FileKind,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum Kind {
+enum FileKind {
     /// A model
     Model,
     /// A file that models include
@@ -37,9 +37,9 @@ impl Arguments {
     /// Prints a schema.
     pub fn execute(self, terminal: &mut Terminal) -> Result<(), Error> {
         terminal.print_json(&match self.of {
-            Kind::Model => Schema::of::<Model>(LANGUAGE),
-            Kind::Included => Schema::of::<Included>(LANGUAGE),
-            Kind::Study => Schema::of::<bryant_study::file::Keys>(LANGUAGE),
+            FileKind::Model => Schema::of::<Model>(LANGUAGE),
+            FileKind::Included => Schema::of::<Included>(LANGUAGE),
+            FileKind::Study => Schema::of::<bryant_study::file::Keys>(LANGUAGE),
         })
     }
 }

@@ -12,7 +12,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::scene::with_forces;
 use crate::settling::{End, Settled, Wanted, settle};
-use crate::signature::{self, Kind};
+use crate::signature::{self, ContentKind};
 use crate::{files, interrupt, quantity, simulation, state_file};
 use bryant_generator::model::{
     Body, Component, ElementId, Model, Output, PointQuantity, Projection, Quantity, Reference,
@@ -108,8 +108,8 @@ impl Arguments {
         if let Some(path) = &self.out {
             let mut outputs = Outputs::of(&found.files, self.replacing);
             let kind = match self.yaml {
-                true => Kind::Model,
-                false => Kind::State,
+                true => ContentKind::Model,
+                false => ContentKind::State,
             };
             outputs.take("--out", path, kind)?;
         }
@@ -161,7 +161,7 @@ impl Arguments {
         let outputs = watched.outputs(&*model, 0.0, &settled.state);
         let (_, worst) = watched.acceleration(&outputs);
         let rests = watched.rests_on(&outputs);
-        let found_at = Place {
+        let found_at = EndPosition {
             farthest: watched.distance(&outputs, true),
             allowed: self.distance,
             reasons: carrying::reasons(&found.model, engine.info(), &settled.state, &carried),
@@ -259,7 +259,7 @@ fn doubt(engine: &Prepared, set: &[(String, f64)], settled: &Settled) -> Result<
 }
 
 /// The position at the end of the search.
-struct Place<'a> {
+struct EndPosition<'a> {
     /// The largest distance of a centre of gravity from its start \[m\], and its element.
     farthest: (f64, &'a str),
     /// The largest distance that is allowed \[m\].
@@ -268,7 +268,7 @@ struct Place<'a> {
     reasons: Vec<String>,
 }
 
-impl Place<'_> {
+impl EndPosition<'_> {
     /// The likely reasons as lines behind a message.
     fn reasons(&self) -> String {
         let lines = self.reasons.iter().map(|reason| format!("\n  {reason}"));
@@ -277,7 +277,7 @@ impl Place<'_> {
 }
 
 /// Fails if the search found no state of rest, and says why.
-fn refuse(settled: &Settled, worst: &str, place: &Place<'_>) -> Result<(), Error> {
+fn refuse(settled: &Settled, worst: &str, place: &EndPosition<'_>) -> Result<(), Error> {
     let g = settled.acceleration / G;
     let (far, element) = place.farthest;
     let allowed = place.allowed;

@@ -6,7 +6,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::files;
 use crate::interrupt;
-use crate::signature::Kind;
+use crate::signature::ContentKind;
 use crate::stability::report::{json, markdown, text};
 use crate::stability::{self, Scenes};
 use std::path::{Path, PathBuf};
@@ -74,15 +74,15 @@ impl Arguments {
         let mut outputs = Outputs::of([], self.replacing);
         let mut pages = Vec::new();
         if self.json {
-            outputs.take("--json", Path::new("-"), Kind::Table)?;
+            outputs.take("--json", Path::new("-"), ContentKind::Table)?;
         }
         if let Some(path) = &self.markdown {
-            outputs.take("--markdown", path, Kind::Markdown)?;
+            outputs.take("--markdown", path, ContentKind::Markdown)?;
             for case in cases.iter().filter(|_| !is_standard(path)) {
                 // a group has one page for all of its cases
                 let page = folder_of(path).join(markdown::file(case.group));
                 if !pages.contains(&page) {
-                    outputs.take("--markdown", &page, Kind::Markdown)?;
+                    outputs.take("--markdown", &page, ContentKind::Markdown)?;
                     pages.push(page);
                 }
             }

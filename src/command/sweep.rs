@@ -21,7 +21,7 @@ use bryant_study::design::Sampler;
 use bryant_study::engine::Engine;
 use bryant_study::facts::ModelFacts;
 use bryant_study::file::StudyFile;
-use bryant_study::run::{Progress as Told, RunError, run};
+use bryant_study::run::{Progress as SweepProgress, RunError, run};
 use bryant_study::shard::Shard;
 use bryant_study::store::identity::Program;
 use bryant_study::store::{Folder, FolderError};
@@ -221,15 +221,15 @@ fn run_all(
     let begin = Instant::now();
     interrupt::watch();
     let report = run(study, engine, folder, shard, threads, &|told| match told {
-        Told::Rows {
+        SweepProgress::Rows {
             done, found, total, ..
         } if done == found => progress.next_from(
             "running the study".to_owned(),
             Whole::Count(total, "runs"),
             found as f64,
         ),
-        Told::Rows { done, .. } => progress.set(done as f64),
-        Told::Damaged { path, error } => {
+        SweepProgress::Rows { done, .. } => progress.set(done as f64),
+        SweepProgress::Damaged { path, error } => {
             progress.say(&format!("{} is run again: {error}", path.display()));
         }
     });
@@ -318,7 +318,7 @@ pub fn of_study(study: &Path) -> PathBuf {
 
 fn lanes(text: &str) -> Result<Width, String> {
     let width = Width::named(text).ok_or("it is 8, 4, 2 or 1")?;
-    match width.there() {
+    match width.is_available() {
         true => Ok(width),
         false => Err("this processor has no such registers".into()),
     }

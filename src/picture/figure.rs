@@ -3,7 +3,7 @@
 use super::view::View;
 use crate::pose::Vec3;
 use crate::scene::mesh::outline;
-use crate::scene::{self, Ellipsoid, Kind, Place, Scene, from_to, length};
+use crate::scene::{self, BodyPoint, Ellipsoid, LineKind, Scene, from_to, length};
 use std::f64::consts::TAU;
 
 /// A point in the plane of the picture: to the right, upwards \[m\].
@@ -137,13 +137,13 @@ struct Projection<'a> {
 impl Projection<'_> {
     fn figure(&self, edges: &[bool]) -> Figure {
         let Projection { scene, k, .. } = *self;
-        let system = |place: Place| scene.system(place.body).unwrap_or_default();
+        let system = |place: BodyPoint| scene.system(place.body).unwrap_or_default();
         let bones = scene.bones.iter().map(|[from, to]| {
             let [a, b] = [from, to].map(|end| self.seen(*end));
             (system(*from), a, b)
         });
         let elements = scene.bodies.iter().enumerate().filter_map(|(body, named)| {
-            let origin = Place {
+            let origin = BodyPoint {
                 body: Some(body),
                 at: [0.0; 3],
             };
@@ -203,7 +203,7 @@ impl Projection<'_> {
             for (segment, ends) in line.points.windows(2).enumerate() {
                 let [from, to] = [0, 1].map(|end| self.seen(ends[end]));
                 match line.kind {
-                    Kind::Belt => figure.belts.push(Belt {
+                    LineKind::Belt => figure.belts.push(Belt {
                         points: scene
                             .path(k, line, segment)
                             .into_iter()
@@ -211,8 +211,8 @@ impl Projection<'_> {
                             .collect(),
                         taut: scene.taut(k, line, segment),
                     }),
-                    Kind::Spring => figure.springs.push([from, to]),
-                    Kind::Bushing => figure.bushings.push([from, to]),
+                    LineKind::Spring => figure.springs.push([from, to]),
+                    LineKind::Bushing => figure.bushings.push([from, to]),
                 }
             }
         }
@@ -225,7 +225,7 @@ impl Projection<'_> {
         self.view.seen(from_to(travel, point))
     }
 
-    fn seen(&self, place: Place) -> Point {
+    fn seen(&self, place: BodyPoint) -> Point {
         self.project(self.scene.point(self.k, place))
     }
 

@@ -14,7 +14,7 @@ const MOST_CURVES: usize = 6;
 #[derive(Clone, Debug, PartialEq)]
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
 #[doc(hidden)]
-pub struct Place {
+pub struct Measurand {
     /// What it measures: "acceleration", "belt force".
     pub what: String,
     /// Where: "driver/head", "three-point"; empty if that has no name.
@@ -34,7 +34,7 @@ pub struct Plot {
 
 /// The plots of a run whose outputs have these units and these largest magnitudes.
 pub fn json(model: &Model, units: &[&str], sizes: &[f64]) -> Value {
-    let places: Vec<Place> = model
+    let places: Vec<Measurand> = model
         .outputs
         .iter()
         .zip(units)
@@ -97,7 +97,7 @@ pub fn of_force(model: &Model, force: usize) -> Vec<Body> {
 
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
 #[doc(hidden)]
-pub fn plots(places: &[Place], units: &[&str], names: &[&str], sizes: &[f64]) -> Vec<Plot> {
+pub fn plots(places: &[Measurand], units: &[&str], names: &[&str], sizes: &[f64]) -> Vec<Plot> {
     // each output joins the first group of its kind: together at a place, or alone
     let alone = |k: usize| {
         let same = (0..places.len()).filter(|j| places[*j] == places[k] && units[*j] == units[k]);
@@ -120,7 +120,7 @@ pub fn plots(places: &[Place], units: &[&str], names: &[&str], sizes: &[f64]) ->
     }
     let mut plots = Vec::new();
     for mut group in groups {
-        let Place { what, place } = &places[group[0]];
+        let Measurand { what, place } = &places[group[0]];
         let title = match group[..] {
             [only] => names[only].to_owned(),
             [first, ..] if alone(first) => what.clone(),
@@ -149,7 +149,7 @@ pub fn plots(places: &[Place], units: &[&str], names: &[&str], sizes: &[f64]) ->
     plots
 }
 
-fn place(model: &Model, quantity: &Quantity, unit: &str) -> Place {
+fn place(model: &Model, quantity: &Quantity, unit: &str) -> Measurand {
     let of_element = |id: &ElementId| {
         let system = &model.systems[id.system];
         format!("{}/{}", system.name, system.elements[id.element].name)
@@ -213,7 +213,7 @@ fn place(model: &Model, quantity: &Quantity, unit: &str) -> Place {
         }
         Quantity::Formula(_) => (measure(unit).to_owned(), String::new()),
     };
-    Place {
+    Measurand {
         what: what.trim().to_owned(),
         place,
     }

@@ -2,7 +2,7 @@
 
 use crate::pose::{Frame, Vec3, quaternion};
 use crate::scene::mesh::Mesh;
-use crate::scene::{Ellipsoid, Kind, Line, Place, Plane, Push, Scene};
+use crate::scene::{BodyPoint, Ellipsoid, Line, LineKind, Plane, Push, Scene};
 use serde_json::{Value, json};
 
 /// A number with six digits.
@@ -123,12 +123,12 @@ fn plane(plane: &Plane) -> Value {
 /// The segments of a line: both ends, the force at each time, positive where it pulls, and at each time the points between the ends, if there are any.
 fn segments(scene: &Scene, line: &Line) -> Vec<Value> {
     let kind = match line.kind {
-        Kind::Belt => "belt",
-        Kind::Spring => "spring",
-        Kind::Bushing => "bushing",
+        LineKind::Belt => "belt",
+        LineKind::Spring => "spring",
+        LineKind::Bushing => "bushing",
     };
-    let place = |place: &Place| json!([index(place.body), vector(place.at)]);
-    let segment = |(i, ends): (usize, &[Place])| {
+    let place = |place: &BodyPoint| json!([index(place.body), vector(place.at)]);
+    let segment = |(i, ends): (usize, &[BodyPoint])| {
         let pulls = line.pulls.get(i).into_iter().flatten();
         json!({
             "name": line.name,

@@ -1,17 +1,17 @@
 //! Lines from joint to joint.
 
-use super::{Bodies, Place};
+use super::{Bodies, BodyPoint};
 use crate::pose::{Numbers, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{Body, Dimension, Element, ElementId, Freedom, Number};
 
 /// Lines from the joint of each element to the joints that it carries, or to its ends, and the centres of gravity of elements that carry no other. Where a joint
 /// slides, a line leads from its place to the part that has slid away from it.
-pub fn bones(bodies: &Bodies<'_>, numbers: Numbers<'_>) -> (Vec<[Place; 2]>, Vec<Place>) {
+pub fn bones(bodies: &Bodies<'_>, numbers: Numbers<'_>) -> (Vec<[BodyPoint; 2]>, Vec<BodyPoint>) {
     let (mut bones, mut masses) = (Vec::new(), Vec::new());
     for id in bodies.ids() {
         let elements = &bodies.model.systems[id.system].elements;
         let body = bodies.index(Body::Element(id));
-        let on = |at: Vec3| Place { body, at };
+        let on = |at: Vec3| BodyPoint { body, at };
         let mut tip = true;
         for (index, child) in elements.iter().enumerate() {
             if child.parent != Some(id.element) {
@@ -23,7 +23,7 @@ pub fn bones(bodies: &Bodies<'_>, numbers: Numbers<'_>) -> (Vec<[Place; 2]>, Vec
                     element: index,
                     ..id
                 });
-                let origin = Place {
+                let origin = BodyPoint {
                     body: bodies.index(child),
                     at: [0.0; 3],
                 };

@@ -1,7 +1,9 @@
 //! What a scene is made of: the looks of laws and of what is only shown, with their forces at all times.
 
 use super::planes::Planes;
-use super::{Bodies, Ellipsoid, Kind, Line, Place, Push, Scene, from_to, length, route, way};
+use super::{
+    Bodies, BodyPoint, Ellipsoid, Line, LineKind, Push, Scene, from_to, length, route, way,
+};
 use crate::pose::{Numbers, Vec3, bryant_rotation, dot};
 use bryant_generator::law::types::{Belt, BeltLength};
 use bryant_generator::model::Round;
@@ -51,7 +53,7 @@ impl Builder<'_> {
         if !self.scene.planar {
             let scene = &mut *self.scene;
             let ways = |line: &Line| match line.kind {
-                Kind::Belt => route::ways(scene, &line.points),
+                LineKind::Belt => route::ways(scene, &line.points),
                 _ => line.ways.clone(),
             };
             let ways: Vec<_> = scene.lines.iter().map(ways).collect();
@@ -93,8 +95,8 @@ impl Builder<'_> {
         }
     }
 
-    fn place(&self, attachment: &Attachment) -> Place {
-        Place {
+    fn place(&self, attachment: &Attachment) -> BodyPoint {
+        BodyPoint {
             body: self.bodies.index(attachment.on),
             at: self.numbers.vector(&attachment.at),
         }
@@ -131,7 +133,7 @@ impl Builder<'_> {
         points: &[&Attachment],
         forces: &[impl Fn(usize) -> Vec3],
     ) {
-        let points: Vec<Place> = points.iter().map(|point| self.place(point)).collect();
+        let points: Vec<BodyPoint> = points.iter().map(|point| self.place(point)).collect();
         let scene = &mut *self.scene;
         let at = |k: usize, i: usize| scene.point(k, points[i]);
         let pulls = forces.iter().enumerate().map(|(i, force)| {
@@ -147,13 +149,13 @@ impl Builder<'_> {
                 let points: Vec<Vec3> = (0..points.len()).map(|i| at(0, i)).collect();
                 let belt = belt.get::<Belt>();
                 (
-                    Kind::Belt,
+                    LineKind::Belt,
                     belt.map(|belt| untensioned(self.numbers, belt, way(&points))),
                 )
             }
-            look::Line::Belt(_) => (Kind::Belt, None),
-            look::Line::Spring => (Kind::Spring, None),
-            look::Line::Bushing => (Kind::Bushing, None),
+            look::Line::Belt(_) => (LineKind::Belt, None),
+            look::Line::Spring => (LineKind::Spring, None),
+            look::Line::Bushing => (LineKind::Bushing, None),
         };
         scene.lines.push(Line {
             name: name.to_owned(),
@@ -197,7 +199,7 @@ impl Builder<'_> {
             let Quantity::Point { body, at, .. } = &output.quantity else {
                 continue;
             };
-            let place = Place {
+            let place = BodyPoint {
                 body: self.bodies.index(*body),
                 at: self.numbers.vector(at),
             };

@@ -4,7 +4,7 @@
 //! of what moves. It looks from the side, unless the box around the whole motion is seen larger from the front or
 //! from above, by a quarter of its area.
 
-use super::{Place, Scene, from_to, length};
+use super::{BodyPoint, Scene, from_to, length};
 use crate::picture::View;
 use crate::pose::Vec3;
 
@@ -44,7 +44,7 @@ impl Scene {
 
     /// How much is fixed to a body.
     fn fixed_to(&self, body: usize) -> usize {
-        let on = |place: &&Place| place.body == Some(body);
+        let on = |place: &&BodyPoint| place.body == Some(body);
         let ends = self.lines.iter().flat_map(|line| &line.points);
         let planes = self.planes.iter().filter(|p| p.body == Some(body));
         let children = self.bodies.iter().filter(|b| b.parent == Some(body));
@@ -76,7 +76,7 @@ impl Scene {
         let meshes = meshes.filter(|mesh| self.system(mesh.body).is_some());
         let meshes = meshes.flat_map(|mesh| {
             let body = mesh.body;
-            mesh.corners.map(|at| (Place { body, at }, 0.0))
+            mesh.corners.map(|at| (BodyPoint { body, at }, 0.0))
         });
         let round = round.chain(meshes);
         let all = bones.chain(ends.map(|place| (*place, 0.0))).chain(round);
@@ -115,14 +115,14 @@ impl Scene {
         let ends = self.lines.iter().flat_map(|line| &line.points).copied();
         let planes = self.planes.iter().flat_map(|plane| {
             let body = plane.body;
-            plane.corners.iter().map(move |&at| Place { body, at })
+            plane.corners.iter().map(move |&at| BodyPoint { body, at })
         });
         let meshes = self.meshes.iter().flat_map(|mesh| {
             let body = mesh.body;
             mesh.triangles
                 .places
                 .iter()
-                .map(move |&at| Place { body, at })
+                .map(move |&at| BodyPoint { body, at })
         });
         let points = bones.chain(ends).chain(planes).chain(meshes);
         let moved = points.map(|place| from_to(self.point(from, place), self.point(k, place)));

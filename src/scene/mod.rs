@@ -32,11 +32,11 @@ pub struct Scene {
     /// By time, the frame of each body.
     pub frames: Vec<Vec<Frame>>,
     /// Lines from joint to joint.
-    pub bones: Vec<[Place; 2]>,
+    pub bones: Vec<[BodyPoint; 2]>,
     /// Centres of gravity of elements that carry no other.
-    pub masses: Vec<Place>,
+    pub masses: Vec<BodyPoint>,
     /// Points that outputs refer to, each by the first of them.
-    pub points: Vec<(String, Place)>,
+    pub points: Vec<(String, BodyPoint)>,
     /// Each once.
     pub ellipsoids: Vec<Ellipsoid>,
     /// Whether some of them are in no contact.
@@ -64,7 +64,7 @@ pub struct Named {
 
 /// A point of a body; without a body, of the absolute frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct BodyPoint {
     /// Index of the body.
     pub body: Option<usize>,
     /// Local frame \[m\].
@@ -75,7 +75,7 @@ pub struct Place {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ellipsoid {
     /// Its centre.
-    pub center: Place,
+    pub center: BodyPoint,
     /// Its axes in the frame of the body, by rows.
     pub turn: [Vec3; 3],
     /// Its semi-axes \[m\]; of a planar scene the second is the smaller of the others.
@@ -101,7 +101,7 @@ pub struct Plane {
 
 /// What pulls along a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum LineKind {
     /// A belt.
     Belt,
     /// A spring.
@@ -116,9 +116,9 @@ pub struct Line {
     /// Name of the force.
     pub name: String,
     /// What pulls.
-    pub kind: Kind,
+    pub kind: LineKind,
     /// Both ends, and rings between them.
-    pub points: Vec<Place>,
+    pub points: Vec<BodyPoint>,
     /// Of a belt, the untensioned length at the start \[m\].
     pub length: Option<f64>,
     /// By segment and time, the force \[N\]; empty where forces are not known.
@@ -236,7 +236,7 @@ impl Scene {
     }
 
     /// Position of a point at a time \[m\].
-    pub fn point(&self, k: usize, place: Place) -> Vec3 {
+    pub fn point(&self, k: usize, place: BodyPoint) -> Vec3 {
         self.frame(k, place.body).point(place.at)
     }
 

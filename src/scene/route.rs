@@ -3,7 +3,7 @@
 //! Its points move to the middle of their neighbours, and those in an ellipsoid to its surface, away from its centre, again and again. So the band lies on the side where
 //! the straight line passes. Nothing but drawings uses it: the force acts along the straight line.
 
-use super::{Place, Scene, from_to, length};
+use super::{BodyPoint, Scene, from_to, length};
 use crate::pose::{Vec3, dot};
 
 /// Pieces of a band while it is pulled tight, and how often its points are moved.
@@ -44,12 +44,12 @@ impl Solid {
 
 /// The points between the ends of each segment of a line at all times, by segment and time: [`BETWEEN`] of a segment that meets one of the bodies at some time, none of
 /// others.
-pub fn ways(scene: &Scene, points: &[Place]) -> Vec<Vec<Vec<Vec3>>> {
+pub fn ways(scene: &Scene, points: &[BodyPoint]) -> Vec<Vec<Vec<Vec3>>> {
     let bodies = between(scene, points);
     let solids: Vec<Vec<Solid>> = (0..scene.times.len())
         .map(|k| solids(scene, k, &bodies))
         .collect();
-    let segment = |ends: &[Place]| {
+    let segment = |ends: &[BodyPoint]| {
         let mut meets = false;
         let bands = solids.iter().enumerate().map(|(k, solids)| {
             let [from, to] = [0, 1].map(|end| scene.point(k, ends[end]));
@@ -67,7 +67,7 @@ pub fn ways(scene: &Scene, points: &[Place]) -> Vec<Vec<Vec<Vec3>>> {
 }
 
 /// The bodies that points are on, and those between them in their trees.
-fn between(scene: &Scene, points: &[Place]) -> Vec<usize> {
+fn between(scene: &Scene, points: &[BodyPoint]) -> Vec<usize> {
     let carriers = |body: usize| {
         std::iter::successors(Some(body), |body| scene.bodies[*body].parent).collect::<Vec<_>>()
     };

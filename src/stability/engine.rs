@@ -5,7 +5,7 @@ use crate::equations;
 use crate::equations::Engine as Equations;
 use crate::evaluation::functions;
 use bryant_generator::model::Model;
-use bryant_hard::{Call, Engine, Run, Scene, Trouble};
+use bryant_hard::{Call, CaseModel, Engine, Run, Trouble};
 use bryant_runtime::program::Job;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -24,7 +24,7 @@ impl Scenes {
     }
 
     /// The equations of a scene.
-    fn equations(&self, scene: &Scene) -> Result<Arc<Equations>, Trouble> {
+    fn equations(&self, scene: &CaseModel) -> Result<Arc<Equations>, Trouble> {
         let model = scene
             .model()
             .map_err(|problems| Trouble::Refused(problems.to_string()))?;
@@ -45,7 +45,7 @@ impl Scenes {
 }
 
 impl Engine for Scenes {
-    fn run(&self, scene: &Scene, job: &Job) -> Result<Run, Trouble> {
+    fn run(&self, scene: &CaseModel, job: &Job) -> Result<Run, Trouble> {
         let run = run::run(&*self.equations(scene)?, job);
         let states = run::states(&run);
         let mut columns = run.table.columns.into_iter();

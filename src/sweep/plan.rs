@@ -3,7 +3,7 @@
 use crate::accuracy::check::FAR;
 use bryant_generator::model::Model;
 use bryant_runtime::batch::rows::{Asked, Job};
-use bryant_runtime::batch::{Fixed, Method, Pace, Settings};
+use bryant_runtime::batch::{Fixed, LaneFormula, Pace, Settings};
 use bryant_runtime::response::filter::MEAN;
 use bryant_runtime::simulate::ENERGY_LIMIT;
 use bryant_runtime::{Response, Tolerances, Width};
@@ -50,10 +50,10 @@ pub fn pace(run: &RunSettings, duration: f64) -> Result<Pace, String> {
             ));
         }
         let method = match method {
-            study::Method::Heun => Method::Heun,
-            study::Method::Rk4 => Method::Rk4,
-            study::Method::Merson => Method::Merson,
-            study::Method::Dopri5 => Method::Dopri5,
+            study::LaneFormula::Heun => LaneFormula::Heun,
+            study::LaneFormula::Rk4 => LaneFormula::Rk4,
+            study::LaneFormula::Merson => LaneFormula::Merson,
+            study::LaneFormula::Dopri5 => LaneFormula::Dopri5,
         };
         let step = length;
         return Ok(Pace::Fixed(Fixed { method, step }));

@@ -4,7 +4,7 @@
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::law::ForceKind;
 use bryant_generator::law::types::Field;
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::units::{Unit, UnitSystem};
 use bryant_generator::model::{Body, Dimension, FieldComponent, Model, PointQuantity, Quantity};
 use bryant_runtime::response::STANDARD_GRAVITY;
@@ -134,7 +134,7 @@ impl CriteriaFact {
 
 impl ModelFacts {
     /// The facts about a model.
-    pub fn of(scene: &Scene) -> ModelFacts {
+    pub fn of(scene: &AnnotatedModel) -> ModelFacts {
         let model = &scene.model;
         let parameters = model.parameters.iter().map(|parameter| ParameterFact {
             name: parameter.name.clone(),

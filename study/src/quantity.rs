@@ -2,7 +2,9 @@
 //!
 //! A bare number is in SI units.
 
-use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
+use bryant_generator::description::expression::{
+    Expression, ExpressionKind, Function, Operator, parse,
+};
 use bryant_generator::description::unit::Dimension;
 
 /// A text that is not a quantity with the requested unit; the message has a remedy.
@@ -103,26 +105,26 @@ pub fn dimension(unit: &str) -> Option<Dimension> {
 
 fn evaluate(expression: &Expression) -> Result<Value, QuantityError> {
     match &expression.kind {
-        Kind::Number(number) => Ok(Value {
+        ExpressionKind::Number(number) => Ok(Value {
             number: *number,
             dimension: None,
         }),
-        Kind::Quantity(number, unit) => Ok(Value {
+        ExpressionKind::Quantity(number, unit) => Ok(Value {
             number: number * unit.factor,
             dimension: Some(unit.dimension),
         }),
-        Kind::Parameter(name) => fail(format!(
+        ExpressionKind::Parameter(name) => fail(format!(
             "\"{name}\" is neither a number nor a unit\n  help: a value is a number with its unit, such as `60 kN`"
         )),
-        Kind::Negative(a) => {
+        ExpressionKind::Negative(a) => {
             let a = evaluate(a)?;
             Ok(Value {
                 number: -a.number,
                 ..a
             })
         }
-        Kind::Binary(operator, a, b) => binary(*operator, evaluate(a)?, evaluate(b)?),
-        Kind::Call(function, a) => call(*function, evaluate(a)?),
+        ExpressionKind::Binary(operator, a, b) => binary(*operator, evaluate(a)?, evaluate(b)?),
+        ExpressionKind::Call(function, a) => call(*function, evaluate(a)?),
     }
 }
 

@@ -207,13 +207,13 @@ pub struct FixedSteps {
     /// Largest length \[s\].
     pub length: f64,
     /// The method.
-    pub method: Method,
+    pub method: LaneFormula,
 }
 
-/// Methods of fixed steps.
+/// The formulas of fixed steps, those of `bryant_runtime::batch::LaneFormula`; a type of this crate is read as a key.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Method {
+pub enum LaneFormula {
     /// Modified Euler, of order 2.
     Heun,
     /// The classical Runge–Kutta method, of order 4.
@@ -226,7 +226,7 @@ pub enum Method {
 }
 
 words! {
-    impl Method {
+    impl LaneFormula {
         Heun = "heun",
         Rk4 = "rk4",
         Merson = "merson",
@@ -234,9 +234,14 @@ words! {
     }
 }
 
-impl Method {
+impl LaneFormula {
     /// All methods, by order.
-    pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
+    pub const ALL: [LaneFormula; 4] = [
+        LaneFormula::Heun,
+        LaneFormula::Rk4,
+        LaneFormula::Merson,
+        LaneFormula::Dopri5,
+    ];
 }
 
 /// The precision of the numbers.

@@ -1,7 +1,7 @@
 //! Runs of compiled models, recorded.
 
 use bryant_runtime::program::{Entry, Job};
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use std::ops::ControlFlow;
 
 /// Times, states and outputs of the samples of a run.
@@ -58,7 +58,7 @@ pub fn run_for(
     tolerance: f64,
     duration: Option<f64>,
 ) -> Recording {
-    let method = Method::adaptive(Formula::Dopri5, Tolerances::uniform(tolerance));
+    let method = Integrator::adaptive(Formula::Dopri5, Tolerances::uniform(tolerance));
     let job = Job {
         method: Some(method),
         duration,

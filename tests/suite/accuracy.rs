@@ -5,7 +5,7 @@ use crate::share::share;
 use bryant::accuracy::difference::Difference;
 use bryant::{bundled, simulation};
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 
 /// The promise of the README and of docs/accuracy.md, at the sampling that the models ask for.
 const PROMISED: f64 = 1e-3;
@@ -20,7 +20,7 @@ fn bundled_models_err_by_less_than_a_thousandth_by_default() {
         // two different methods, both far sharper, show the error
         let [one, other] = [Formula::Dop853, Formula::Tsit5].map(|formula| {
             run(&Job {
-                method: Some(Method::adaptive(formula, Tolerances::of(1e-10))),
+                method: Some(Integrator::adaptive(formula, Tolerances::of(1e-10))),
                 locate: Some(formula == Formula::Dop853),
                 ..Job::default()
             })
@@ -43,7 +43,7 @@ fn a_loose_tolerance_takes_no_more_steps_than_the_usual_one() {
     let steps = |tolerance: f64| {
         let tolerances = Tolerances::of(tolerance).calm();
         let job = Job {
-            method: Some(Method::switching(Formula::Dopri5, tolerances)),
+            method: Some(Integrator::switching(Formula::Dopri5, tolerances)),
             // the belt is loaded, and lets go
             duration: Some(0.08),
             ..Job::default()

@@ -136,7 +136,9 @@ fn alone(name: &str) {
 
 /// A model with user functions, as read, and the files with the functions.
 fn read(path: &Path) -> (Model, Vec<(String, String)>) {
-    let model = bryant_generator::read_scene(path).expect("a model").model;
+    let model = bryant_generator::read_annotated(path)
+        .expect("a model")
+        .model;
     let mut sources = Vec::new();
     for force in &model.forces {
         if let ForceKind::User(user) = ForceKind::of(force)
@@ -316,8 +318,8 @@ fn alike(ours: &mut dyn Adjustable<f64>, theirs: &mut dyn Adjustable<f64>, withi
             *entry += 0.3 * next();
         }
         let t = 0.2;
-        type Method = fn(&dyn Dynamics<f64>, f64, &[f64], &mut [f64]);
-        let methods: [(&str, usize, Method); 7] = [
+        type Evaluation = fn(&dyn Dynamics<f64>, f64, &[f64], &mut [f64]);
+        let methods: [(&str, usize, Evaluation); 7] = [
             ("rate", y.len(), |m, t, y, out| m.derivative(t, y, out)),
             ("outputs", info.outputs.len(), |m, t, y, out| {
                 m.outputs(t, y, out);

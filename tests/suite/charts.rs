@@ -6,7 +6,7 @@ use bryant_generator::model::{Coordinates, Dimension, ElementId, Reference};
 use bryant_generator::motion::chart::LIMIT;
 use bryant_generator::motion::layout::Layout;
 use bryant_runtime::model::over;
-use bryant_runtime::simulate::{self, Method, Settings};
+use bryant_runtime::simulate::{self, Integrator, Settings};
 use bryant_runtime::{
     Differentiable, Formula, Model, ParameterSet, Real, Report, Sample, Tolerances, Vector,
 };
@@ -32,12 +32,17 @@ impl Run {
     }
 }
 
-fn run<M: Model<f64>>(method: Method, duration: f64, disturbance: f64) -> Run {
+fn run<M: Model<f64>>(method: Integrator, duration: f64, disturbance: f64) -> Run {
     let model = M::new(<M::Parameters as ParameterSet<f64>>::defaults());
     run_of::<f64, M>(&model, method, duration, disturbance)
 }
 
-fn run_of<T: Real, M: Model<T>>(model: &M, method: Method, duration: f64, disturbance: f64) -> Run {
+fn run_of<T: Real, M: Model<T>>(
+    model: &M,
+    method: Integrator,
+    duration: f64,
+    disturbance: f64,
+) -> Run {
     let mut start = model.initial_state();
     let moving = M::INFO.coordinates.len() + M::INFO.velocities.len();
     for i in 0..moving {
@@ -81,8 +86,8 @@ fn differences(a: &Run, b: &Run) -> Vec<f64> {
         .collect()
 }
 
-fn adaptive(formula: Formula, tolerance: f64) -> Method {
-    Method::adaptive(formula, Tolerances::uniform(tolerance))
+fn adaptive(formula: Formula, tolerance: f64) -> Integrator {
+    Integrator::adaptive(formula, Tolerances::uniform(tolerance))
 }
 
 /// The error theory of `motion`: each of n steps errs by the tolerance τ times the size y of the state times the growth G of errors, which
@@ -135,7 +140,7 @@ fn every_method_goes_through_the_pole() {
     // order
     for formula in [Formula::SemiImplicitEuler, Formula::Heun, Formula::Rk4] {
         let error = |steps: f64| {
-            let method = Method::fixed(formula, 1.0 / steps);
+            let method = Integrator::fixed(formula, 1.0 / steps);
             let bryant = run::<poles_bryant::Mechanism<f64>>(method, 1.0, 0.0);
             assert!(
                 bryant.changes() > 5,
@@ -163,7 +168,7 @@ fn single_precision_goes_through_the_pole() {
     const SIZE: f64 = 10.0;
     const DISTURBANCE: f64 = 1e-7;
     const STEPS: f64 = 500.0;
-    let method = Method::fixed(Formula::Rk4, 1.0 / STEPS);
+    let method = Integrator::fixed(Formula::Rk4, 1.0 / STEPS);
     let quaternion = run::<poles::Mechanism<f64>>(method, 1.0, 0.0);
     let disturbed = run::<poles::Mechanism<f64>>(method, 1.0, DISTURBANCE);
     let model = poles_bryant::Mechanism::<f64>::new(ParameterSet::defaults());

@@ -10,7 +10,7 @@ use crate::identity::Balance;
 use bryant_generator::expression::sum;
 use bryant_generator::method::Method as Of;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use bryant_tests::models::MODELS;
 use std::ops::ControlFlow;
 
@@ -42,7 +42,7 @@ fn the_energy_balance_of_every_run_closes_to_the_tolerance() {
         for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
             let tolerances = Tolerances::of(tolerance);
             let job = Job {
-                method: Some(Method::adaptive(Formula::Dopri5, tolerances)),
+                method: Some(Integrator::adaptive(Formula::Dopri5, tolerances)),
                 ..Job::default()
             };
             let outcome = entry.run_balanced(&job, &mut |_, _, _| ControlFlow::Continue(()));

@@ -9,7 +9,7 @@ use bryant::{bundled, simulation};
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::Model;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use std::sync::Arc;
 
 /// The models, with their numbers of scenes: bundled models with contacts, belts, joints with stops, switches and states of force laws.
@@ -80,7 +80,7 @@ fn the_estimate_covers_the_true_error_in_95_of_100_scenes() {
             let run = target::run(&engine, &job, wanted, &mut |_| {});
             let default = simulation::run(&engine, &job, &mut |_| {});
             let sharp = Job {
-                method: Some(Method::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
+                method: Some(Integrator::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
                 locate: Some(true),
                 ..job
             };

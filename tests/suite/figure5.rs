@@ -5,7 +5,7 @@ use bryant::{equations, simulation};
 use bryant_generator::law::ForceKind;
 use bryant_generator::model::{Curve, Model, Quantity};
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use bryant_tests::runs::run;
 
 const TOLERANCE: f64 = 1e-10;
@@ -93,7 +93,7 @@ fn a_child_that_nothing_holds_floats_as_a_point_does() {
     let engine = equations::of(&model).expect("the model has equations");
     for gravity in [0.0, 9.81] {
         let job = Job {
-            method: Some(Method::adaptive(
+            method: Some(Integrator::adaptive(
                 Formula::Dopri5,
                 Tolerances::uniform(TOLERANCE),
             )),

@@ -2,7 +2,7 @@
 
 use super::lanes::engine;
 use bryant_runtime::batch::rows::{Asked, Gradients, Job};
-use bryant_runtime::batch::{Fixed, Method, Pace, Settings, Status};
+use bryant_runtime::batch::{Fixed, LaneFormula, Pace, Settings, Status};
 use bryant_runtime::{Response, Tolerances, Width};
 
 const BALL: &str = "models/switches.yaml";
@@ -193,7 +193,7 @@ fn samples_at_points_that_are_stretched_stay_where_they_are() {
     let responses = [0.25, 0.4, 0.625, 0.8].map(|at| ("jolted rate", Response::Value { at }));
     let parameters = [("span", 1.25)];
     let exact = differentiated(LINKS, 1.0, within(1e-12), &parameters, &responses);
-    let (method, step) = (Method::Dopri5, 1e-3);
+    let (method, step) = (LaneFormula::Dopri5, 1e-3);
     let pace = Pace::Fixed(Fixed { method, step });
     let found = differentiated(LINKS, 1.0, pace, &parameters, &responses);
     for (k, response) in responses.iter().enumerate() {

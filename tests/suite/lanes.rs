@@ -7,7 +7,7 @@ use bryant_runtime::batch::rows::{Asked, Entry as RowsEntry, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Settings, Status};
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width};
 use bryant_runtime::{
-    Adjustable, Dynamics, Formula, Info, Method, Report, Response, Several, Tolerances, Width,
+    Adjustable, Dynamics, Formula, Info, Integrator, Report, Response, Several, Tolerances, Width,
     simulate,
 };
 use std::ops::ControlFlow;
@@ -92,12 +92,12 @@ fn bits(engine: &Engine, duration: f64, width: Width, count: usize) -> Vec<u64> 
 }
 
 fn the_same_in_every_width(engine: &Engine, duration: f64) {
-    if !Width::One.there() {
+    if !Width::One.is_available() {
         return;
     }
     let narrow = bits(engine, duration, Width::One, 3);
     for width in [Width::Two, Width::Four, Width::Eight] {
-        if width.there() {
+        if width.is_available() {
             assert!(
                 bits(engine, duration, width, 3) == narrow,
                 "{} in {width:?}",
@@ -137,7 +137,7 @@ fn single(
     let settings = bryant_runtime::Settings {
         duration,
         every: duration / 100.0,
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
+        method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
         ..bryant_runtime::Settings::of(engine.info())
     };
     let mut all = vec![Vec::new(); outputs.len()];
@@ -297,7 +297,7 @@ impl OfAnyWidth for Single<'_> {
         let settings = bryant_runtime::Settings {
             duration: self.duration,
             every: self.duration,
-            method: Method::fixed(method.formula(), step),
+            method: Integrator::fixed(method.formula(), step),
             ..bryant_runtime::Settings::of(self.engine.info())
         };
         let mut end = Vec::new();
@@ -321,9 +321,9 @@ fn fixed_steps_are_those_of_a_single_run(path: &str, duration: f64, step: f64) {
     if let Some(row) = fails {
         rows[row * across] = f64::NAN;
     }
-    for method in batch::Method::ALL {
+    for method in batch::LaneFormula::ALL {
         let fixed = Fixed { method, step };
-        for width in Width::ALL.into_iter().filter(|width| width.there()) {
+        for width in Width::ALL.into_iter().filter(|width| width.is_available()) {
             let ends = |output| Asked::of(output, Response::Final);
             let base = job(info, duration, width);
             let job = Job {

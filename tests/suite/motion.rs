@@ -4,7 +4,7 @@
 //! time of comparison by the amplification of the motion itself, which is measured by a run from a disturbed state. So: error ≤ steps ·
 //! tolerance · amplification · size of the state.
 
-use bryant_runtime::simulate::{Method, Settings, simulate_from};
+use bryant_runtime::simulate::{Integrator, Settings, simulate_from};
 use bryant_runtime::{Formula, Model, Tolerances, Vector};
 use bryant_tests::models;
 use serde_yaml::Value;
@@ -31,7 +31,7 @@ fn run<M: Model<f64>>(every: f64, duration: f64, tolerance: f64, disturbance: f6
         };
     }
     model.normalize(&mut start);
-    let method = Method::adaptive(Formula::Dopri5, Tolerances::uniform(tolerance));
+    let method = Integrator::adaptive(Formula::Dopri5, Tolerances::uniform(tolerance));
     let settings = Settings {
         duration,
         every,

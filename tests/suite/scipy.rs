@@ -12,7 +12,7 @@
 
 use bryant_generated::find;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Report, Tolerances};
+use bryant_runtime::{Formula, Integrator, Report, Tolerances};
 use serde_json::Value;
 use std::ops::ControlFlow;
 
@@ -167,7 +167,10 @@ struct Run {
 fn run(times: &[f64], formula: Formula, tolerance: f64, locate: bool, friction: f64) -> Run {
     let entry = find("child-seat").expect("a bundled model").entry;
     let job = Job {
-        method: Some(Method::adaptive(formula, Tolerances::uniform(tolerance))),
+        method: Some(Integrator::adaptive(
+            formula,
+            Tolerances::uniform(tolerance),
+        )),
         locate: Some(locate),
         every: Some(times[1]),
         parameters: vec![("friction".into(), friction)],

@@ -10,7 +10,7 @@
 //! outputs. For explicit methods, the cheapest setting that happens to reach an accuracy counts. For the method for stiff models, the
 //! cheapest setting counts from which on all smaller tolerances reach it, too, because a user does not know the solution.
 
-use bryant_runtime::simulate::{Method, Report, Settings};
+use bryant_runtime::simulate::{Integrator, Report, Settings};
 use bryant_runtime::{
     Differentiable, Formula, Model, ParameterSet, Sample, Tolerances, Vector, simulate,
 };
@@ -53,7 +53,7 @@ impl Run {
 }
 
 /// Runs from the start, or from a later state, to the end.
-fn run(method: Method, locate: bool, from: Option<(&State, f64)>) -> Result<Run, String> {
+fn run(method: Integrator, locate: bool, from: Option<(&State, f64)>) -> Result<Run, String> {
     let model = Arm::new(<<Arm as Model<f64>>::Parameters as ParameterSet<f64>>::defaults());
     let (start, passed) = from.map_or((model.initial_state(), 0.0), |(y, t)| (*y, t));
     let settings = Settings {
@@ -79,7 +79,7 @@ fn run(method: Method, locate: bool, from: Option<(&State, f64)>) -> Result<Run,
 }
 
 fn sharp(formula: Formula, tolerance: f64) -> Run {
-    let method = Method::adaptive(formula, Tolerances::of(tolerance));
+    let method = Integrator::adaptive(formula, Tolerances::of(tolerance));
     run(method, true, None).unwrap_or_else(|failure| panic!("{failure}"))
 }
 
@@ -112,10 +112,12 @@ fn error(reference: &[Vec<f64>], outputs: &[Vec<f64>]) -> f64 {
 }
 
 /// All settings of a formula, from coarse to fine, with kinks located or passed.
-fn settings(formula: Formula, locate: bool) -> [Vec<(Method, bool)>; 2] {
-    let adaptive = TOLERANCES.map(|t| Method::adaptive(formula, Tolerances::of(t)));
+fn settings(formula: Formula, locate: bool) -> [Vec<(Integrator, bool)>; 2] {
+    let adaptive = TOLERANCES.map(|t| Integrator::adaptive(formula, Tolerances::of(t)));
     let adaptive = adaptive.into_iter().filter(|_| formula.estimates_error());
-    let fixed = STEPS.map(|step| Method::fixed(formula, step)).into_iter();
+    let fixed = STEPS
+        .map(|step| Integrator::fixed(formula, step))
+        .into_iter();
     [
         adaptive.map(|method| (method, locate)).collect(),
         fixed.map(|method| (method, locate)).collect(),
@@ -125,7 +127,7 @@ fn settings(formula: Formula, locate: bool) -> [Vec<(Method, bool)>; 2] {
 /// Runs with all settings, or why they failed.
 type Runs = Vec<Result<Run, String>>;
 
-fn all(settings: &[(Method, bool)]) -> Runs {
+fn all(settings: &[(Integrator, bool)]) -> Runs {
     let runs = settings
         .iter()
         .map(|(method, locate)| run(*method, *locate, None));
@@ -186,7 +188,7 @@ fn steps_of_the_stiff_method_on_the_stop_are_100_times_longer() {
     let every = Arm::INFO.every;
     let from = (&reference.states[PRESSED], PRESSED as f64 * every);
     let steps = |formula| {
-        let method = Method::adaptive(formula, Tolerances::of(1e-3));
+        let method = Integrator::adaptive(formula, Tolerances::of(1e-3));
         let run = run(method, true, Some(from)).unwrap_or_else(|failure| panic!("{failure}"));
         println!(
             "{formula:20} {} steps, {} rejected",
@@ -218,7 +220,7 @@ fn no_tolerance_lets_a_method_run_away_from_a_stop() {
     for formula in Formula::ALL.into_iter().filter(|f| f.estimates_error()) {
         for locate in [true, false] {
             for tolerance in TOLERANCES {
-                let method = Method::adaptive(formula, Tolerances::of(tolerance));
+                let method = Integrator::adaptive(formula, Tolerances::of(tolerance));
                 let run = run(method, locate, None)
                     .unwrap_or_else(|e| panic!("{formula} {locate} {tolerance:e}: {e}"));
                 for entry in 0..ENTRIES as usize {

@@ -5,7 +5,7 @@
 //! of a step, divided by the rate at which the quantity passes its threshold.
 
 use bryant_runtime::program::{Entry, Job};
-use bryant_runtime::{Formula, Method};
+use bryant_runtime::{Formula, Integrator};
 use bryant_tests::models;
 use bryant_tests::runs::{Recording, run};
 use std::ops::ControlFlow;
@@ -102,7 +102,7 @@ fn a_delay_may_be_longer_than_the_run() {
 fn fixed_steps_end_at_a_switch_too() {
     let step = 1e-3;
     let job = Job {
-        method: Some(Method::fixed(Formula::Rk4, step)),
+        method: Some(Integrator::fixed(Formula::Rk4, step)),
         ..Job::default()
     };
     let entry = entry();

@@ -7,7 +7,7 @@ use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Pace, Status};
 use bryant_runtime::response::Response;
 use bryant_runtime::simulate;
-use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, Width};
+use bryant_runtime::{Dynamics, Formula, Integrator, Settings, Tolerances, Width};
 use std::ops::ControlFlow;
 
 /// The accuracy of outputs that is promised at the default tolerance.
@@ -83,7 +83,7 @@ run: { duration: 50 ms, every: 1 ms }
 }
 
 /// The first output at all samples, and the number of steps, accepted or not.
-fn run(engine: &Engine, method: Method) -> (Vec<f64>, u64) {
+fn run(engine: &Engine, method: Integrator) -> (Vec<f64>, u64) {
     let model = engine.over::<f64>();
     let info = model.info();
     let mut state = vec![0.0; info.state_length()];
@@ -112,7 +112,7 @@ fn what_rests_on_a_stiff_spring_stays_at_rest() {
     for k in [1e4, 1e6, 1e8] {
         let engine = engine_of(&on_a_plate(k, 0.0));
         for formula in CONTROLLED {
-            let method = Method::adaptive(formula, Tolerances::default());
+            let method = Integrator::adaptive(formula, Tolerances::default());
             let (forces, steps) = run(&engine, method);
             let off = off(&forces, 1e-3 * GRAVITY);
             assert!(off < PROMISE, "{formula}, {k:e} N/m: {off:e}");
@@ -130,7 +130,7 @@ fn what_rests_on_a_stiff_spring_stays_at_rest() {
 fn springs_that_press_against_each_other_stay_at_rest() {
     let engine = engine_of(&between_springs());
     for formula in CONTROLLED {
-        let method = Method::adaptive(formula, Tolerances::default());
+        let method = Integrator::adaptive(formula, Tolerances::default());
         let (forces, _) = run(&engine, method);
         // 100 N of each soft spring
         let off = off(&forces, -100.0).min(off(&forces, 100.0));
@@ -161,7 +161,7 @@ run: {{ duration: 20 s, every: 0.1 s }}
                 // its samples are within steps of half a period
                 continue;
             }
-            let method = Method::adaptive(formula, Tolerances::default());
+            let method = Integrator::adaptive(formula, Tolerances::default());
             let (torques, _) = run(&engine, method);
             let errors = torques.iter().enumerate().map(|(i, torque)| {
                 let exact = -amplitude * (0.1 * i as f64).cos();

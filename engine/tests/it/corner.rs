@@ -10,7 +10,8 @@ use bryant_generator::Config;
 use bryant_runtime::batch::{self, Ended, Scenarios, Series};
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
 use bryant_runtime::{
-    Adjustable, Dynamics, Family, Formula, Method, Settings, Several, Tolerances, Watch, simulate,
+    Adjustable, Dynamics, Family, Formula, Integrator, Settings, Several, Tolerances, Watch,
+    simulate,
 };
 use std::ops::ControlFlow;
 
@@ -134,7 +135,7 @@ fn engine(scene: &str, law: &str) -> Engine {
     let text = scene.replace("LAW", law).replace("CURVE", CURVE);
     let loader = |_: &std::path::Path| Err(std::io::ErrorKind::NotFound.into());
     let scene =
-        bryant_generator::read_scene_str("corner", &text, &loader).expect("scenes are right");
+        bryant_generator::read_annotated_str("corner", &text, &loader).expect("scenes are right");
     Engine::new(Config::new().lists(&scene.model)).expect("no functions")
 }
 
@@ -185,7 +186,7 @@ fn no_run_passes_a_corner_unseen() {
                 for tolerance in TOLERANCES {
                     let settings = Settings {
                         every: EVERY[k % EVERY.len()],
-                        method: Method::adaptive(formula, Tolerances::of(tolerance)),
+                        method: Integrator::adaptive(formula, Tolerances::of(tolerance)),
                         ..Settings::of(model.info())
                     };
                     let mut end = f64::NAN;
@@ -233,7 +234,7 @@ fn fixed_steps_tell_of_what_they_do_not_see() {
             for (k, step) in STEPS.into_iter().enumerate() {
                 let formula = [Formula::Rk4, Formula::Dopri5][(i + k) % 2];
                 let settings = Settings {
-                    method: Method::fixed(formula, step),
+                    method: Integrator::fixed(formula, step),
                     ..Settings::of(model.info())
                 };
                 let mut watch = Watch::new(model.info(), 0.02);

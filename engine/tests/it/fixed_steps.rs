@@ -12,7 +12,7 @@ use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};
 use bryant_runtime::response::Response;
 use bryant_runtime::simulate::{self, ENERGY_LIMIT, Problem, Watch};
 use bryant_runtime::{
-    Dynamics, Family, Formula, Info, Method, Settings, StateKind, Tolerances, Width,
+    Dynamics, Family, Formula, Info, Integrator, Settings, StateKind, Tolerances, Width,
 };
 use std::ops::ControlFlow;
 
@@ -113,7 +113,7 @@ run: { duration: 4 s, every: 4 s }
 ";
 
 /// A scene with its duration and the longest step to try.
-struct Scene {
+struct Case {
     name: &'static str,
     /// Whether no step goes over a touch.
     smooth: bool,
@@ -122,13 +122,13 @@ struct Scene {
     longest: f64,
 }
 
-fn scenes() -> Vec<Scene> {
+fn scenes() -> Vec<Case> {
     let cart = |start: &str, law: &str| CART.replace("START", start).replace("LAW", law);
     let rods = |more: &str, field: &str| RODS.replace("MORE", more).replace("FIELD", field);
     let second = "- { name: b, on: a, at: [0, -1], mass: 1, cg: [0, -0.5], inertia: 0.1 }";
     let stop = "stop: { from: -0.05, to: 0.05, stiffness: 3000, damping: 5, damping_angle: 0.005 }";
     let touches = ["stop", "bounce", "rest", "car"];
-    let of = |name, text: String, duration, longest| Scene {
+    let of = |name, text: String, duration, longest| Case {
         name,
         smooth: !touches.contains(&name),
         text,
@@ -175,7 +175,7 @@ fn scenes() -> Vec<Scene> {
     ]
 }
 
-impl Scene {
+impl Case {
     /// Thresholds at which nothing may be said of an error, and at which it must be.
     fn thresholds(&self, error: f64) -> [Option<f64>; 2] {
         let usual = OFF * ENERGY_LIMIT;
@@ -200,7 +200,7 @@ fn engine_of(text: &str) -> Engine {
 /// failed.
 fn run(
     engine: &Engine,
-    method: Method,
+    method: Integrator,
     [duration, every]: [f64; 2],
     limit: f64,
 ) -> Option<(Vec<Vec<f64>>, bool)> {
@@ -255,7 +255,7 @@ fn apart(info: &Info, run: &[Vec<f64>], reference: &[Vec<f64>]) -> f64 {
 }
 
 /// The steps of a method at which a run errs by something worth looking at, with that error.
-fn errors(engine: &Engine, scene: &Scene, formula: Formula) -> Vec<(f64, f64)> {
+fn errors(engine: &Engine, scene: &Case, formula: Formula) -> Vec<(f64, f64)> {
     let info = Family::info(engine);
     let mut found = Vec::new();
     let mut step = scene.longest;
@@ -263,8 +263,8 @@ fn errors(engine: &Engine, scene: &Scene, formula: Formula) -> Vec<(f64, f64)> {
         let every = scene.duration / (scene.duration / step).ceil();
         let lengths = [scene.duration, every];
         let of = |method| run(engine, method, lengths, f64::INFINITY);
-        if let Some((states, _)) = of(Method::fixed(formula, every)) {
-            let exact = Method::adaptive(Formula::Dop853, Tolerances::of(1e-11));
+        if let Some((states, _)) = of(Integrator::fixed(formula, every)) {
+            let exact = Integrator::adaptive(Formula::Dop853, Tolerances::of(1e-11));
             let (exact, _) = of(exact).expect("the reference reaches its end");
             let error = apart(info, &states, &exact);
             if (LEAST..MOST).contains(&error) {
@@ -293,7 +293,7 @@ fn the_error_is_told_where_it_is_and_only_there() {
                         continue;
                     };
                     looked_at += 1;
-                    let method = Method::fixed(formula, step);
+                    let method = Integrator::fixed(formula, step);
                     let lengths = [scene.duration, step];
                     let (_, told) = run(&engine, method, lengths, threshold / OFF).expect("it ran");
                     assert_eq!(
@@ -314,10 +314,10 @@ fn the_error_is_told_where_it_is_and_only_there() {
 
 #[test]
 fn the_error_is_told_of_lanes_as_well() {
-    let mut told_as_an_error = [0; batch::Method::ALL.len()];
+    let mut told_as_an_error = [0; batch::LaneFormula::ALL.len()];
     for scene in scenes() {
         let engine = engine_of(&scene.text);
-        for (place, method) in batch::Method::ALL.into_iter().enumerate() {
+        for (place, method) in batch::LaneFormula::ALL.into_iter().enumerate() {
             for (step, error) in errors(&engine, &scene, method.formula()) {
                 let row = |threshold: f64| {
                     let settings = batch::Settings {

@@ -6,7 +6,7 @@ use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Pace, Status};
 use bryant_runtime::response::Response;
-use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, Width, simulate};
+use bryant_runtime::{Dynamics, Formula, Integrator, Settings, Tolerances, Width, simulate};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::ops::ControlFlow;
 
@@ -111,7 +111,7 @@ outputs:
 fn run<const N: usize>(engine: &Engine, duration: f64, samples: usize) -> (Vec<[f64; N]>, f64) {
     let machine = engine.over::<f64>();
     let settings = Settings {
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
+        method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
         duration,
         every: duration / samples as f64,
         ..Settings::of(machine.info())
@@ -308,7 +308,7 @@ fn lanes_and_gradients_know_the_sets() {
         let rows: Vec<[f64; 2]> = (0..13)
             .map(|i| [90.0 + 3.0 * f64::from(i), 400.0 + 20.0 * f64::from(i)])
             .collect();
-        for width in Width::ALL.into_iter().filter(|width| width.there()) {
+        for width in Width::ALL.into_iter().filter(|width| width.is_available()) {
             let found = engine
                 .rows(&job(width), rows.as_flattened())
                 .expect("registers");
@@ -448,7 +448,7 @@ fn a_bristle_straightens_while_its_force_does_not_act() {
     let engine = scene(Of::Slider, law, [0.0, 1.0], switch);
     let machine = engine.over::<f64>();
     let settings = Settings {
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
+        method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
         duration: 2.0,
         every: 1.0,
         ..Settings::of(machine.info())
@@ -509,7 +509,7 @@ run: {{ duration: 0.4 s, every: 0.05 s }}
     let engine = Engine::new(Config::new().lists(&model)).expect("no functions");
     let machine = engine.over::<f64>();
     let settings = Settings {
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
+        method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
         ..Settings::of(machine.info())
     };
     let mut state = vec![0.0; machine.info().state_length()];

@@ -3,7 +3,7 @@
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
-use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
+use bryant_runtime::{Dynamics, Formula, Integrator, Settings, Tolerances, simulate};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
@@ -80,7 +80,7 @@ fn the_flyball_governor_moves_as_published() {
     let engine = engine_of(&governor());
     let machine = engine.over::<f64>();
     let settings = Settings {
-        method: Method::adaptive(Formula::Dop853, Tolerances::of(1e-9)),
+        method: Integrator::adaptive(Formula::Dop853, Tolerances::of(1e-9)),
         ..Settings::of(machine.info())
     };
     let mut state = vec![0.0; machine.info().state_length()];

@@ -5,7 +5,7 @@
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
-use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
+use bryant_runtime::{Dynamics, Formula, Integrator, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 
 /// All laws act at the start: angles are beyond stops, curves are not odd, contacts touch, belts are taut.
@@ -126,7 +126,7 @@ fn mechanisms_whose_sides_are_mirror_images_move_so() {
     let mut y = vec![0.0; machine.info().state_length()];
     machine.initial_state(&mut y);
     let settings = Settings {
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(1e-11)),
+        method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(1e-11)),
         duration: 0.05,
         every: 0.05,
         ..Settings::of(machine.info())

@@ -7,7 +7,8 @@ use bryant_hard::meeting::{self, Case, DURATION, EVERY, FORMULAS, Met, TOLERANCE
 use bryant_runtime::batch::{self, Ended, Scenarios, Series};
 use bryant_runtime::real::lanes::{OfAnyWidth, Width, with_width};
 use bryant_runtime::{
-    Adjustable, Dynamics, Family, Formula, Method, Settings, Several, Tolerances, Watch, simulate,
+    Adjustable, Dynamics, Family, Formula, Integrator, Settings, Several, Tolerances, Watch,
+    simulate,
 };
 use std::ops::ControlFlow;
 
@@ -56,7 +57,7 @@ fn no_run_steps_over_anything() {
             let formula = FORMULAS[i % FORMULAS.len()];
             let settings = Settings {
                 every: EVERY[i % EVERY.len()],
-                method: Method::adaptive(formula, Tolerances::of(TOLERANCE)),
+                method: Integrator::adaptive(formula, Tolerances::of(TOLERANCE)),
                 ..Settings::of(model.info())
             };
             let mut end = Vec::new();
@@ -82,7 +83,7 @@ fn exact(engine: &Engine, cases: &[Case]) -> Vec<Vec<f64>> {
         let mut start = vec![0.0; model.info().state_length()];
         model.initial_state(&mut start);
         let settings = Settings {
-            method: Method::adaptive(Formula::Dopri5, Tolerances::of(1e-8)),
+            method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(1e-8)),
             ..Settings::of(model.info())
         };
         let mut end = Vec::new();
@@ -153,7 +154,7 @@ fn fixed_steps_tell_what_they_go_over() {
             model.initial_state(&mut start);
             let settings = Settings {
                 every: DURATION,
-                method: Method::fixed(formula, step),
+                method: Integrator::fixed(formula, step),
                 ..Settings::of(model.info())
             };
             let mut watch = Watch::new(model.info(), 0.02);
@@ -291,7 +292,7 @@ fn no_lane_steps_over_anything() {
 #[test]
 fn lanes_of_fixed_steps_tell_what_they_go_over() {
     for step in STEPS {
-        for method in batch::Method::ALL {
+        for method in batch::LaneFormula::ALL {
             let pace = batch::Pace::Fixed(batch::Fixed { method, step });
             let wrong = wrong_in_lanes(pace);
             assert!(

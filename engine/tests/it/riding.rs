@@ -3,7 +3,7 @@
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
-use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
+use bryant_runtime::{Dynamics, Formula, Integrator, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 
 const TOLERANCE: f64 = 1e-10;
@@ -16,7 +16,7 @@ fn run(text: &str) -> Vec<(f64, Vec<f64>)> {
     let engine = Engine::new(Config::new().lists(&model)).expect("no functions");
     let machine = engine.over::<f64>();
     let settings = Settings {
-        method: Method::adaptive(Formula::Dop853, Tolerances::of(TOLERANCE)),
+        method: Integrator::adaptive(Formula::Dop853, Tolerances::of(TOLERANCE)),
         ..Settings::of(machine.info())
     };
     let mut state = vec![0.0; machine.info().state_length()];

@@ -1,6 +1,6 @@
 //! Runs of one engine share its machine code.
 
-use bryant_engine::inside::{addresses, there};
+use bryant_engine::inside::{addresses, has_machine_code};
 use bryant_engine::{Engine, Evaluated};
 use bryant_generator::Config;
 use bryant_runtime::Adjustable;
@@ -33,7 +33,10 @@ fn all_runs_of_an_engine_have_the_same_code_and_each_scalar_its_own() {
     let of_doubles = |wanted: &[usize]| addresses::<f64>(&engine, wanted);
     // kept to the end, so that other code has other addresses
     let (first, _kept) = of_doubles(&[0, 2]);
-    assert_eq!(first.map(|code| code.is_some()), [there::<f64>(); 3]);
+    assert_eq!(
+        first.map(|code| code.is_some()),
+        [has_machine_code::<f64>(); 3]
+    );
     let (again, _) = of_doubles(&[0, 2]);
     assert_eq!(again, first);
     let elsewhere = std::thread::scope(|scope| {
@@ -44,7 +47,7 @@ fn all_runs_of_an_engine_have_the_same_code_and_each_scalar_its_own() {
     // another scalar, and other outputs
     let (single, _) = addresses::<f32>(&engine, &[0, 2]);
     let (fewer, _) = of_doubles(&[2]);
-    if there::<f64>() {
+    if has_machine_code::<f64>() {
         assert!(single.iter().zip(first).all(|(one, other)| *one != other));
         assert_eq!(fewer[..2], first[..2]);
         assert_ne!(fewer[2], first[2]);

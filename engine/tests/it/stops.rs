@@ -6,8 +6,8 @@ use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{self, Fixed, Pace, Status};
 use bryant_runtime::response::Response;
 use bryant_runtime::{
-    Adjustable, DoubleDouble, Dual, Dynamics, Family, Formula, Method, Real, Settings, Tolerances,
-    Width, simulate,
+    Adjustable, DoubleDouble, Dual, Dynamics, Family, Formula, Integrator, Real, Settings,
+    Tolerances, Width, simulate,
 };
 use std::ops::ControlFlow;
 
@@ -338,7 +338,7 @@ fn end_of(
     engine: &Engine,
     parameters: &[f64],
     duration: f64,
-    method: Method,
+    method: Integrator,
 ) -> (Vec<f64>, Vec<f64>, u64) {
     let mut model = engine.over::<f64>();
     model.set_parameters(parameters);
@@ -372,7 +372,7 @@ fn no_step_goes_across_the_end() {
         for (speed, braking) in [(10.0, 5.0), (9.0, 7.0), (11.0, 4.3)] {
             let stop = speed / braking;
             let (duration, step) = (4.0, 0.3);
-            let method = Method::fixed(formula, step);
+            let method = Integrator::fixed(formula, step);
             let given = [speed, braking];
             let start = [[1.5, 0.1], [speed, 0.0]];
             let whole = car(Moves::Stops, 0.0, [0.1, 0.0], start);
@@ -434,13 +434,13 @@ fn lanes_stop_one_by_one() {
     }
     rows.extend([[0.0, 3.0], [0.0, 0.0], [-6.0, -4.0]]);
     let step = 0.2;
-    let method = batch::Method::Dopri5;
+    let method = batch::LaneFormula::Dopri5;
     for fixed in [true, false] {
         let pace = match fixed {
             true => Pace::Fixed(Fixed { method, step }),
             false => Pace::Adaptive(Tolerances::of(1e-9)),
         };
-        for width in Width::ALL.into_iter().filter(|width| width.there()) {
+        for width in Width::ALL.into_iter().filter(|width| width.is_available()) {
             let mut job = Job {
                 width,
                 ..job(&engine, pace, &[0, 1, 2, 3, 4])
@@ -455,9 +455,9 @@ fn lanes_stop_one_by_one() {
                     assert!((ours - expected).abs() <= 1e-12 * (1.0 + expected.abs()));
                 }
                 let (single, bound) = match fixed {
-                    true => (Method::fixed(Formula::Dopri5, step), 1e-11),
+                    true => (Integrator::fixed(Formula::Dopri5, step), 1e-11),
                     false => (
-                        Method::adaptive(Formula::Dopri5, Tolerances::of(1e-9)),
+                        Integrator::adaptive(Formula::Dopri5, Tolerances::of(1e-9)),
                         1e-6,
                     ),
                 };
@@ -477,11 +477,11 @@ fn lanes_stop_one_by_one() {
 fn steps_too_long_for_a_hard_braking_are_told() {
     let engine = stopping();
     let of = |speed: f64, braking: f64, step: f64| {
-        let method = Method::fixed(Formula::Dopri5, step);
+        let method = Integrator::fixed(Formula::Dopri5, step);
         end_of(&engine, &[speed, braking], 4.0, method).0
     };
     let pace = Pace::Fixed(Fixed {
-        method: batch::Method::Dopri5,
+        method: batch::LaneFormula::Dopri5,
         step: 0.2,
     });
     for (speed, braking, told) in [(15.3, 3.1, false), (16.7, 8.3, true)] {

@@ -2,7 +2,7 @@
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
-use bryant_runtime::{Dynamics, Formula, Method, Settings, Tolerances, simulate};
+use bryant_runtime::{Dynamics, Formula, Integrator, Settings, Tolerances, simulate};
 use std::ops::ControlFlow;
 
 const TOLERANCE: f64 = 1e-10;
@@ -40,7 +40,7 @@ run: {{ duration: 2 s, every: 0.05 s }}
 fn run(engine: &Engine, duration: f64) -> Vec<[f64; 2]> {
     let machine = engine.over::<f64>();
     let settings = Settings {
-        method: Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
+        method: Integrator::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE)),
         duration,
         every: 0.05,
         locate: true,

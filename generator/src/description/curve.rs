@@ -5,7 +5,7 @@ use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of};
 use super::shape::{In, Misfit, Problems, Record, Shape, check_record, record, words};
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 use serde_yaml::Value;
 use std::ops::Deref;
 
@@ -83,7 +83,7 @@ impl Shape for NameOrCurve {
 
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::Map(_) => check_record::<Curve>(at, problems),
+            NodeKind::Map(_) => check_record::<Curve>(at, problems),
             _ => String::check(at, problems),
         }
     }
@@ -158,13 +158,13 @@ impl Shape for Function {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::Map(_) if at.node.get("param").is_some() => Quantity::check(at, problems),
-            Kind::Map(_) if at.node.get("curve").is_some() => {
+            NodeKind::Map(_) if at.node.get("param").is_some() => Quantity::check(at, problems),
+            NodeKind::Map(_) if at.node.get("curve").is_some() => {
                 check_record::<ScaledCurve>(at, problems);
             }
-            Kind::Map(_) => check_record::<Curve>(at, problems),
-            Kind::Scalar { .. } => Quantity::check(at, problems),
-            Kind::List(_) => problems.add(at.problem(
+            NodeKind::Map(_) => check_record::<Curve>(at, problems),
+            NodeKind::Scalar { .. } => Quantity::check(at, problems),
+            NodeKind::List(_) => problems.add(at.problem(
                 "here stands a list, but a curve is needed",
                 "write the name of a curve, or `{ points: [[0, 0], [1, 10]] }`",
             )),
@@ -184,7 +184,7 @@ impl Shape for Function {
 
 /// True of a mapping that is a curve with its points in a file.
 pub fn has_file(node: &Node) -> bool {
-    let Kind::Map(entries) = &node.kind else {
+    let NodeKind::Map(entries) = &node.kind else {
         return false;
     };
     let keys = Curve::keys();

@@ -29,12 +29,12 @@ pub struct Expression {
     /// Characters.
     pub length: usize,
     /// What it is.
-    pub kind: Kind,
+    pub kind: ExpressionKind,
 }
 
 /// What a node computes.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Kind {
+pub enum ExpressionKind {
     /// A bare number.
     Number(f64),
     /// A number with its unit.
@@ -164,7 +164,7 @@ impl Reader {
             left = Expression {
                 offset: left.offset,
                 length: right.offset + right.length - left.offset,
-                kind: Kind::Binary(operator, Box::new(left), Box::new(right)),
+                kind: ExpressionKind::Binary(operator, Box::new(left), Box::new(right)),
             };
         }
         Ok(left)
@@ -208,15 +208,15 @@ impl Reader {
                         length,
                         kind,
                     },
-                    (_, Kind::Number(value)) => Expression {
+                    (_, ExpressionKind::Number(value)) => Expression {
                         offset,
                         length,
-                        kind: Kind::Number(-value),
+                        kind: ExpressionKind::Number(-value),
                     },
                     (_, kind) => Expression {
                         offset,
                         length,
-                        kind: Kind::Negative(Box::new(Expression { kind, ..inner })),
+                        kind: ExpressionKind::Negative(Box::new(Expression { kind, ..inner })),
                     },
                 })
             }
@@ -229,7 +229,9 @@ impl Reader {
                 self.next -= 1;
                 Err(self.unexpected(Some(token.clone())))
             }
-            TokenKind::Name(name) if name == "pi" => Ok(leaf(Kind::Number(std::f64::consts::PI))),
+            TokenKind::Name(name) if name == "pi" => {
+                Ok(leaf(ExpressionKind::Number(std::f64::consts::PI)))
+            }
             TokenKind::Name(name) if FUNCTIONS.contains(&name.as_str()) => {
                 self.call(name, offset, length)
             }
@@ -244,7 +246,7 @@ impl Reader {
                 help: "the functions are sqrt, sin and cos; products are written with `*`"
                     .to_owned(),
             }),
-            TokenKind::Name(name) => Ok(leaf(Kind::Parameter(name.clone()))),
+            TokenKind::Name(name) => Ok(leaf(ExpressionKind::Parameter(name.clone()))),
         }
     }
 
@@ -269,7 +271,7 @@ impl Reader {
         Ok(Expression {
             offset,
             length: end - offset,
-            kind: Kind::Call(function, Box::new(argument)),
+            kind: ExpressionKind::Call(function, Box::new(argument)),
         })
     }
 
@@ -336,8 +338,8 @@ impl Reader {
             offset,
             length,
             kind: match total {
-                None => Kind::Number(value),
-                Some(unit) => Kind::Quantity(value, unit),
+                None => ExpressionKind::Number(value),
+                Some(unit) => ExpressionKind::Quantity(value, unit),
             },
         })
     }

@@ -6,7 +6,7 @@ use super::place::At;
 use super::quantity::Number;
 use super::schema::{Schema, any_of};
 use super::shape::{Key, Misfit, Problems, Shape, record};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use crate::diagnostic::{nearest, quoted};
 use serde_yaml::Value;
 
@@ -27,7 +27,7 @@ pub struct LawKeys {
     /// image.
     pub image: fn(&mut Expander<'_>, &Node, &mut Node) -> Option<()>,
     /// Advice for two forces with the same name, in place of renaming one of them.
-    pub twice: Option<&'static str>,
+    pub same_name_advice: Option<&'static str>,
     /// True if the law has outputs.
     pub is_observable: bool,
     /// True if outputs name a part of the law after its name: `of: user drag/head`.
@@ -85,7 +85,7 @@ impl Shape for Force {
             let keys: Vec<String> = kinds().map(|key| format!("`{key}:`")).collect();
             format!("a force begins with one of {}", keys.join(", "))
         };
-        let Kind::Map(entries) = &at.node.kind else {
+        let NodeKind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(
                 format!("here stands {}, but a force has keys", at.node.article()),
                 help(),

@@ -7,7 +7,7 @@ use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of, list_of, words};
 use super::shape::{Key, Misfit, Problems, Shape, check_keys, check_word, misfit, record};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 use std::collections::BTreeMap;
 
@@ -139,7 +139,7 @@ impl Shape for Freedom {
     }
 
     fn check(at: At<'_>, problems: &Problems) {
-        if !matches!(at.node.kind, Kind::Map(_)) {
+        if !matches!(at.node.kind, NodeKind::Map(_)) {
             problems.add(at.problem(
                 format!("here stands {}, but a joint of a list has keys", at.node.article()),
                 "write `{ hinge: z }` or `{ slider: x }`; `ball`, `weld` and the other words stand alone: `joint: ball`",
@@ -224,7 +224,7 @@ impl Shape for Axis {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::List(_) => Vec::<Number<Pure>>::check(at, problems),
+            NodeKind::List(_) => Vec::<Number<Pure>>::check(at, problems),
             _ => check_word(at, &AXES, problems),
         }
     }
@@ -247,9 +247,9 @@ impl Shape for Joint {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::List(_) => Vec::<Freedom>::check(at, problems),
-            Kind::Map(_) => check_freedom(at, problems),
-            Kind::Scalar { .. } => {
+            NodeKind::List(_) => Vec::<Freedom>::check(at, problems),
+            NodeKind::Map(_) => check_freedom(at, problems),
+            NodeKind::Scalar { .. } => {
                 let words = problems.language.joint_words.iter();
                 let words: Vec<&str> = words.map(|word| word.word).collect();
                 check_word(at, &words, problems);

@@ -21,7 +21,7 @@ use super::surface::Surface;
 use super::switch::Switch;
 use super::system::System;
 use super::table::Table;
-use super::tree::{Kind, MAX_BYTES, Node, Source};
+use super::tree::{MAX_BYTES, Node, NodeKind, Source};
 use super::vehicle::Vehicle;
 use super::what;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
@@ -151,7 +151,7 @@ impl Shape for Dimension {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::Scalar { text, .. } if ["2", "3"].contains(&text.as_str()) => {}
+            NodeKind::Scalar { text, .. } if ["2", "3"].contains(&text.as_str()) => {}
             _ => problems.add(at.problem(
                 "a model moves in the plane or in space",
                 "write `2` for the x–z plane, or `3` for space",
@@ -545,7 +545,7 @@ impl Reader<'_> {
         self.open.push(path);
         let list = source.at().key("include");
         let count = match &list.node.kind {
-            Kind::List(items) if source.root.get("include").is_some() => items.len(),
+            NodeKind::List(items) if source.root.get("include").is_some() => items.len(),
             _ => 0,
         };
         for index in 0..count {
@@ -725,13 +725,13 @@ impl Reader<'_> {
     /// Reads the files that the curves at this place and below name.
     fn tables(&mut self, at: At<'_>) {
         match &at.node.kind {
-            Kind::Scalar { .. } => {}
-            Kind::List(items) => (0..items.len()).for_each(|index| self.tables(at.item(index))),
-            Kind::Map(_) if curve::has_file(at.node) => match at.node.get("mme") {
+            NodeKind::Scalar { .. } => {}
+            NodeKind::List(items) => (0..items.len()).for_each(|index| self.tables(at.item(index))),
+            NodeKind::Map(_) if curve::has_file(at.node) => match at.node.get("mme") {
                 Some(_) => self.channel(at),
                 None => self.table(at.key("file")),
             },
-            Kind::Map(entries) => {
+            NodeKind::Map(entries) => {
                 for entry in entries {
                     self.tables(at.key(&entry.key));
                 }
@@ -781,7 +781,7 @@ impl Reader<'_> {
     }
 
     fn table(&mut self, at: At<'_>) {
-        let Kind::Scalar { text: file, .. } = &at.node.kind else {
+        let NodeKind::Scalar { text: file, .. } = &at.node.kind else {
             return;
         };
         let path = beside(&at.source.name, file);

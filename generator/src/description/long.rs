@@ -2,7 +2,7 @@
 
 use super::curve::has_file;
 use super::load::{Loaded, beside, shown};
-use super::tree::{Entry, Kind, Node};
+use super::tree::{Entry, Node, NodeKind};
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -45,8 +45,8 @@ pub fn long_form(loaded: &Loaded) -> String {
             let mut part = part.clone();
             relate_paths(&mut part, &file.source.name, &main.source.name);
             match (whole.as_mut().map(|node| &mut node.kind), part.kind) {
-                (Some(Kind::List(all)), Kind::List(more)) => all.extend(more),
-                (Some(Kind::Map(all)), Kind::Map(more)) => all.extend(more),
+                (Some(NodeKind::List(all)), NodeKind::List(more)) => all.extend(more),
+                (Some(NodeKind::Map(all)), NodeKind::Map(more)) => all.extend(more),
                 (_, kind) => {
                     whole = Some(Node {
                         span: part.span,
@@ -69,7 +69,7 @@ pub fn long_form(loaded: &Loaded) -> String {
 /// Puts what a file says of a system that an included one describes where that is described: a reference in the place of the one there, a start
 /// key by key.
 fn join_systems(systems: &mut Node) {
-    let Kind::List(items) = &mut systems.kind else {
+    let NodeKind::List(items) = &mut systems.kind else {
         return;
     };
     let mut joined: Vec<Node> = Vec::new();
@@ -90,8 +90,12 @@ fn join_systems(systems: &mut Node) {
 /// Puts the entries of a mapping in the place of those of another, down to a depth.
 fn join(into: &mut Node, from: &Node, depth: usize) {
     for entry in from.entries() {
-        let both_maps =
-            |old: &Node| matches!((&old.kind, &entry.value.kind), (Kind::Map(_), Kind::Map(_)));
+        let both_maps = |old: &Node| {
+            matches!(
+                (&old.kind, &entry.value.kind),
+                (NodeKind::Map(_), NodeKind::Map(_))
+            )
+        };
         match into.get_mut(&entry.key) {
             // a reference is one thing: it is replaced as a whole
             Some(old) if depth > 0 && both_maps(old) && entry.key != "reference" => {
@@ -107,13 +111,13 @@ fn relate_paths(node: &mut Node, file: &str, main: &str) {
     let folder = Path::new(main).parent().unwrap_or(Path::new(""));
     let names_file = has_file(node);
     match &mut node.kind {
-        Kind::Scalar { .. } => {}
-        Kind::List(items) => {
+        NodeKind::Scalar { .. } => {}
+        NodeKind::List(items) => {
             for item in items {
                 relate_paths(item, file, main);
             }
         }
-        Kind::Map(entries) => {
+        NodeKind::Map(entries) => {
             let is_user = entries.iter().any(|e| e.key == "user");
             for Entry { key, value, .. } in entries {
                 if (key == "file" || key == "mme") && names_file || key == "source" && is_user {
@@ -146,7 +150,7 @@ fn relate(value: &mut Node, file: &str, folder: &Path) {
 /// The items of a list; anything else itself.
 fn items_or_itself(node: &mut Node) -> Vec<&mut Node> {
     match node.kind {
-        Kind::List(ref mut items) => items.iter_mut().collect(),
+        NodeKind::List(ref mut items) => items.iter_mut().collect(),
         _ => vec![node],
     }
 }
@@ -157,13 +161,13 @@ fn write_entry(text: &mut String, key: &str, value: &Node, indent: usize) {
     let fits = indent + key.len() + 2 + flow.chars().count() <= WIDTH && !is_section;
     let key = scalar(key, true);
     match &value.kind {
-        Kind::Map(entries) if !entries.is_empty() && (indent == 0 || !fits) => {
+        NodeKind::Map(entries) if !entries.is_empty() && (indent == 0 || !fits) => {
             let _ = writeln!(text, "{:indent$}{key}:", "");
             for entry in entries {
                 write_entry(text, &entry.key, &entry.value, indent + 2);
             }
         }
-        Kind::List(items) if !items.is_empty() && !fits => {
+        NodeKind::List(items) if !items.is_empty() && !fits => {
             let _ = writeln!(text, "{:indent$}{key}:", "");
             for item in items {
                 write_item(text, item, indent + 2);
@@ -179,7 +183,7 @@ fn write_item(text: &mut String, item: &Node, indent: usize) {
     let flow = flow(item);
     let fits = indent + 2 + flow.chars().count() <= WIDTH;
     match &item.kind {
-        Kind::Map(entries) if !entries.is_empty() && !fits => {
+        NodeKind::Map(entries) if !entries.is_empty() && !fits => {
             let mut inner = String::new();
             for entry in entries {
                 write_entry(&mut inner, &entry.key, &entry.value, indent + 2);
@@ -196,13 +200,13 @@ fn write_item(text: &mut String, item: &Node, indent: usize) {
 /// On one line.
 fn flow(node: &Node) -> String {
     match &node.kind {
-        Kind::Scalar { text, plain } => scalar(text, *plain),
-        Kind::List(items) => {
+        NodeKind::Scalar { text, plain } => scalar(text, *plain),
+        NodeKind::List(items) => {
             let items: Vec<String> = items.iter().map(flow).collect();
             format!("[{}]", items.join(", "))
         }
-        Kind::Map(entries) if entries.is_empty() => "{}".to_owned(),
-        Kind::Map(entries) => {
+        NodeKind::Map(entries) if entries.is_empty() => "{}".to_owned(),
+        NodeKind::Map(entries) => {
             let entries: Vec<String> = entries
                 .iter()
                 .map(|e| format!("{}: {}", scalar(&e.key, true), flow(&e.value)))

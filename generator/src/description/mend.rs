@@ -5,7 +5,7 @@
 use super::language::Language;
 use super::place::At;
 use super::shape::Problems;
-use super::tree::{Entry, Kind, MAX_DEPTH, Node, Source, Span};
+use super::tree::{Entry, MAX_DEPTH, Node, NodeKind, Source, Span};
 use crate::diagnostic::Diagnostic;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -66,9 +66,9 @@ impl Lost {
         loop {
             let contains = |node: &&Node| begin(node.span) <= place && place <= end(node);
             let inner = match &node.kind {
-                Kind::Scalar { .. } => None,
-                Kind::List(items) => items.iter().find(contains),
-                Kind::Map(entries) => {
+                NodeKind::Scalar { .. } => None,
+                NodeKind::List(items) => items.iter().find(contains),
+                NodeKind::Map(entries) => {
                     let found = entries.iter().find(|e| {
                         begin(e.span) <= place && place <= end(&e.value).max(begin(e.span))
                     });
@@ -79,7 +79,7 @@ impl Lost {
                 }
             };
             let Some(inner) = inner else { break };
-            if let Kind::Map(_) = inner.kind {
+            if let NodeKind::Map(_) = inner.kind {
                 self.names.extend(own_names(inner));
                 innermost = Some(inner);
             }
@@ -107,15 +107,15 @@ fn begin(span: Span) -> (usize, usize) {
 fn end(node: &Node) -> (usize, usize) {
     let own = (node.span.line, node.span.column + node.span.length);
     match &node.kind {
-        Kind::Scalar { .. } => own,
-        Kind::List(items) => items.iter().map(end).fold(own, Ord::max),
-        Kind::Map(entries) => entries.iter().map(|e| end(&e.value)).fold(own, Ord::max),
+        NodeKind::Scalar { .. } => own,
+        NodeKind::List(items) => items.iter().map(end).fold(own, Ord::max),
+        NodeKind::Map(entries) => entries.iter().map(|e| end(&e.value)).fold(own, Ord::max),
     }
 }
 
 /// What a record may be called: its `name`, or what its first key is (`belt: chest`).
 fn own_names(record: &Node) -> Vec<String> {
-    let Kind::Map(entries) = &record.kind else {
+    let NodeKind::Map(entries) = &record.kind else {
         return Vec::new();
     };
     let first = entries.first().map(|e| &e.value);
@@ -135,9 +135,9 @@ fn own_names(record: &Node) -> Vec<String> {
 fn all_names(node: &Node, names: &mut BTreeSet<String>) {
     names.extend(own_names(node));
     match &node.kind {
-        Kind::Scalar { .. } => {}
-        Kind::List(items) => items.iter().for_each(|item| all_names(item, names)),
-        Kind::Map(entries) => entries.iter().for_each(|e| all_names(&e.value, names)),
+        NodeKind::Scalar { .. } => {}
+        NodeKind::List(items) => items.iter().for_each(|item| all_names(item, names)),
+        NodeKind::Map(entries) => entries.iter().for_each(|e| all_names(&e.value, names)),
     }
 }
 
@@ -148,14 +148,14 @@ pub fn take_out(root: &mut Node, problems: &[Diagnostic]) {
             |p: &Diagnostic| begin(from) <= (p.line, p.column) && (p.line, p.column) <= end(node);
         !problems.iter().any(inside)
     };
-    let Kind::Map(sections) = &mut root.kind else {
+    let NodeKind::Map(sections) = &mut root.kind else {
         return;
     };
     for section in sections {
         match &mut section.value.kind {
-            Kind::Scalar { .. } => {}
-            Kind::List(items) => items.retain(|item| is_sound(item.span, item)),
-            Kind::Map(entries) => entries.retain(|e| is_sound(e.span, &e.value)),
+            NodeKind::Scalar { .. } => {}
+            NodeKind::List(items) => items.retain(|item| is_sound(item.span, item)),
+            NodeKind::Map(entries) => entries.retain(|e| is_sound(e.span, &e.value)),
         }
     }
 }
@@ -168,15 +168,15 @@ pub fn item_mentions(source: &Source, problem: &Diagnostic, words: &[String]) ->
     let mut item = None;
     loop {
         let inner = match &node.kind {
-            Kind::Scalar { .. } => None,
-            Kind::List(items) => {
+            NodeKind::Scalar { .. } => None,
+            NodeKind::List(items) => {
                 let found = items.iter().find(|item| contains(item.span, item));
                 item = found
-                    .filter(|found| matches!(found.kind, Kind::Map(_)))
+                    .filter(|found| matches!(found.kind, NodeKind::Map(_)))
                     .or(item);
                 found
             }
-            Kind::Map(entries) => {
+            NodeKind::Map(entries) => {
                 let found = entries.iter().find(|e| contains(e.span, &e.value));
                 found.map(|entry| &entry.value)
             }
@@ -191,12 +191,12 @@ pub fn item_mentions(source: &Source, problem: &Diagnostic, words: &[String]) ->
 /// Whether one of these words stands in a node.
 fn mentions(node: &Node, words: &[String]) -> bool {
     match &node.kind {
-        Kind::Scalar { text, .. } => {
+        NodeKind::Scalar { text, .. } => {
             let mut parts = text.split(|c: char| !c.is_alphanumeric() && c != '_');
             parts.any(|part| words.iter().any(|word| word == part))
         }
-        Kind::List(items) => items.iter().any(|item| mentions(item, words)),
-        Kind::Map(entries) => entries.iter().any(|e| mentions(&e.value, words)),
+        NodeKind::List(items) => items.iter().any(|item| mentions(item, words)),
+        NodeKind::Map(entries) => entries.iter().any(|e| mentions(&e.value, words)),
     }
 }
 
@@ -265,8 +265,8 @@ impl Surgeon<'_> {
             return true;
         }
         match &mut node.kind {
-            Kind::Scalar { .. } => false,
-            Kind::List(items) => {
+            NodeKind::Scalar { .. } => false,
+            NodeKind::List(items) => {
                 let before = items.len();
                 items.retain_mut(|item| {
                     let keep = !self.operate(item, depth + 1);
@@ -278,13 +278,13 @@ impl Surgeon<'_> {
                 self.changed |= items.len() < before;
                 items.is_empty() && before > 0
             }
-            Kind::Map(_) => self.operate_map(node, depth),
+            NodeKind::Map(_) => self.operate_map(node, depth),
         }
     }
 
     fn operate_map(&mut self, node: &mut Node, depth: usize) -> bool {
         let record = node.clone();
-        let Kind::Map(entries) = &mut node.kind else {
+        let NodeKind::Map(entries) = &mut node.kind else {
             return false;
         };
         let mut gives_up = false;
@@ -296,7 +296,7 @@ impl Surgeon<'_> {
                     kept.push(entry);
                 } else {
                     all_names(&entry.value, &mut self.lost.names);
-                    gives_up |= depth == 0 && !matches!(entry.value.kind, Kind::Scalar { .. });
+                    gives_up |= depth == 0 && !matches!(entry.value.kind, NodeKind::Scalar { .. });
                 }
                 continue;
             }
@@ -333,7 +333,7 @@ impl Surgeon<'_> {
         if let Some(text) = correction.value {
             entry.value = Node {
                 span: entry.span,
-                kind: Kind::Scalar { text, plain: true },
+                kind: NodeKind::Scalar { text, plain: true },
             };
         }
         true
@@ -343,7 +343,7 @@ impl Surgeon<'_> {
 /// Whether a problem at a node is one with its first key, which begins at the same place.
 fn is_first_key(node: &Node, is_corrected: impl Fn(Span) -> bool) -> bool {
     match &node.kind {
-        Kind::Map(entries) => entries.first().is_some_and(|first| {
+        NodeKind::Map(entries) => entries.first().is_some_and(|first| {
             begin(first.span) == begin(node.span)
                 && first.span.length == node.span.length
                 && is_corrected(first.span)

@@ -5,7 +5,7 @@ use super::place::At;
 use super::quantity::{Number, OneOrThree};
 use super::schema::{Schema, any_of, list_of, typed};
 use super::shape::{Misfit, Problems, Shape, check_record, record, words};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 
 words! {
@@ -54,7 +54,7 @@ impl Shape for Meshes {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::List(items) => {
+            NodeKind::List(items) => {
                 for index in 0..items.len() {
                     one(at.item(index), problems);
                 }
@@ -74,8 +74,8 @@ impl Shape for Meshes {
 
 fn one(at: At<'_>, problems: &Problems) {
     match &at.node.kind {
-        Kind::Map(_) => check_record::<Mesh>(at, problems),
-        Kind::Scalar { text, .. } if !text.is_empty() && at.node.article() == "a text" => {}
+        NodeKind::Map(_) => check_record::<Mesh>(at, problems),
+        NodeKind::Scalar { text, .. } if !text.is_empty() && at.node.article() == "a text" => {}
         _ => problems.add(at.problem(
             format!("here stands {}, but a mesh is needed", at.node.article()),
             "write the path of a file, such as `car.stl`, `{ file: car.stl, scale: 0.001 }`, or `{ shape: box, size: [4, 1.8, 1.4] }`",

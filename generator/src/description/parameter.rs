@@ -5,7 +5,7 @@ use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of};
 use super::shape::{Misfit, Problems, Shape, check_record, record};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 
 record! {
@@ -31,7 +31,7 @@ impl Shape for ParameterEntry {
 
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::Map(_) => check_record::<Parameter>(at, problems),
+            NodeKind::Map(_) => check_record::<Parameter>(at, problems),
             _ => Quantity::check(at, problems),
         }
     }

@@ -80,5 +80,5 @@ pub fn text(at: At<'_>, planar: bool, problems: &Problems) -> Option<String> {
 
 /// Whether an entry of `include` is a part.
 pub fn is_part(at: At<'_>) -> bool {
-    matches!(at.node.kind, tree::Kind::Map(_)) && at.node.get("part").is_some()
+    matches!(at.node.kind, tree::NodeKind::Map(_)) && at.node.get("part").is_some()
 }

@@ -5,7 +5,7 @@ use super::quantity::Quantity;
 use super::shape::Problems;
 use super::shape::Shape as _;
 use super::short::{Human, HumanAngles, HumanName, HumanNeutral, HumanPosture, HumanSex};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use super::unit::{Dimension, unit};
 use crate::diagnostic::quoted;
 use crate::human::{Neutral, Person, Posture, Sex, Size, Written, yaml};
@@ -174,5 +174,5 @@ pub fn is_word(text: &str, joint: char) -> bool {
 
 /// Whether an entry of `include` is a person.
 pub fn is_person(at: At<'_>) -> bool {
-    matches!(at.node.kind, Kind::Map(_)) && at.node.get("human").is_some()
+    matches!(at.node.kind, NodeKind::Map(_)) && at.node.get("human").is_some()
 }

@@ -1,6 +1,6 @@
 //! Places in a source, and problems reported there.
 
-use super::tree::{Kind, Node, Source, Span};
+use super::tree::{Node, NodeKind, Source, Span};
 use crate::diagnostic::Diagnostic;
 
 /// A place in a source, walked down in step with the description read from it.
@@ -41,8 +41,8 @@ fn leads<'a>(from: &'a Node, wanted: &Node, trail: &mut Vec<Step<'a>>) -> bool {
         found
     };
     match &from.kind {
-        Kind::Map(entries) => entries.iter().any(|e| below(Step::Key(&e.key), &e.value)),
-        Kind::List(items) => items
+        NodeKind::Map(entries) => entries.iter().any(|e| below(Step::Key(&e.key), &e.value)),
+        NodeKind::List(items) => items
             .iter()
             .enumerate()
             .any(|(i, item)| below(Step::Item(i), item)),
@@ -79,7 +79,7 @@ impl<'a> At<'a> {
 
     /// The value of a key; this place itself where there is none.
     pub fn key(self, key: &str) -> At<'a> {
-        if let Kind::Map(entries) = &self.node.kind
+        if let NodeKind::Map(entries) = &self.node.kind
             && let Some(entry) = entries.iter().find(|e| e.key == key)
         {
             return At {
@@ -96,7 +96,7 @@ impl<'a> At<'a> {
     /// An entry of a list; this place itself where there is none.
     pub fn item(self, index: usize) -> At<'a> {
         match &self.node.kind {
-            Kind::List(items) if index < items.len() => At {
+            NodeKind::List(items) if index < items.len() => At {
                 source: self.source,
                 node: &items[index],
                 key: None,
@@ -156,7 +156,7 @@ impl<'a> At<'a> {
         help: impl Into<String>,
     ) -> Diagnostic {
         let mut span = self.node.span;
-        if let Kind::Scalar { text, plain } = &self.node.kind {
+        if let NodeKind::Scalar { text, plain } = &self.node.kind {
             let quotes = usize::from(!plain);
             // only text that stands in the file as it is read has its characters where they are counted
             if span.length == text.chars().count() + 2 * quotes {

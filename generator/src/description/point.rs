@@ -5,7 +5,7 @@ use super::place::At;
 use super::quantity::Number;
 use super::schema::{Schema, any_of, words};
 use super::shape::{Misfit, Problems, Shape};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 
 /// A point of an element.
@@ -28,8 +28,8 @@ impl Shape for Point {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::List(_) => Vec::<Number<Length>>::check(at, problems),
-            Kind::Scalar { text, .. } if text == "cg" => {}
+            NodeKind::List(_) => Vec::<Number<Length>>::check(at, problems),
+            NodeKind::Scalar { text, .. } if text == "cg" => {}
             _ => problems.add(at.problem(
                 format!("here stands {}, but a point is needed", at.node.article()),
                 "write `cg` for the centre of gravity, or coordinates in the local frame such as `[0, 0.1]`",

@@ -4,7 +4,7 @@ use super::place::At;
 use super::rule::Rule;
 use super::schema::{QUANTITY, Schema, any_of, object, typed};
 use super::shape::{In, Misfit, Problems, Shape, check_record, misfit, record};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 
 /// A quantity that is measured in `U`; `&Number<U>` is a `&Quantity` where the unit does not matter.
@@ -51,8 +51,8 @@ impl Shape for Quantity {
 
     fn check(at: At<'_>, problems: &Problems) {
         match &at.node.kind {
-            Kind::Map(_) => check_record::<Param>(at, problems),
-            Kind::Scalar { .. } if matches!(at.node.article(), "a number" | "a text") => {}
+            NodeKind::Map(_) => check_record::<Param>(at, problems),
+            NodeKind::Scalar { .. } if matches!(at.node.article(), "a number" | "a text") => {}
             _ => problems.add(at.problem(
                 format!("here stands {}, but a number is needed", at.node.article()),
                 "write a number, a number with its unit such as `20 deg`, or an expression of parameters",
@@ -109,7 +109,7 @@ impl<T: Shape> Shape for OneOrThree<T> {
 
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::List(_) => Vec::<T>::check(at, problems),
+            NodeKind::List(_) => Vec::<T>::check(at, problems),
             _ => T::check(at, problems),
         }
     }

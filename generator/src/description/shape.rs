@@ -12,7 +12,7 @@ use super::place::At;
 use super::rule::Rule;
 use super::schema::{Schema, list_of, mapping_of, typed};
 use super::slip;
-use super::tree::{Entry, Kind, Span};
+use super::tree::{Entry, NodeKind, Span};
 use crate::diagnostic::{Diagnostic, nearest, quoted};
 pub use serde_yaml::Value;
 use std::cell::{Cell, RefCell};
@@ -377,7 +377,7 @@ pub fn check_record<R: Record>(at: At<'_>, problems: &Problems) {
 
 /// [`check_record`] of the record with this title and these keys.
 pub fn check_keys(title: &str, all: &[Key], at: At<'_>, problems: &Problems) {
-    let Kind::Map(entries) = &at.node.kind else {
+    let NodeKind::Map(entries) = &at.node.kind else {
         let keys: Vec<String> = all
             .iter()
             .filter(|k| !k.optional)
@@ -508,8 +508,8 @@ pub fn check_word_or(at: At<'_>, words: &[&str], or: &str, problems: &Problems) 
         or => format!("{all}; {or}"),
     };
     match &at.node.kind {
-        Kind::Scalar { text, .. } if words.contains(&text.as_str()) => {}
-        Kind::Scalar { text, .. } => problems.add(at.problem(
+        NodeKind::Scalar { text, .. } if words.contains(&text.as_str()) => {}
+        NodeKind::Scalar { text, .. } => problems.add(at.problem(
             format!("{} is none of the words that may stand here", quoted(text)),
             match (slip::in_word(text), nearest(text, words.iter().copied())) {
                 (Some((message, help)), _) => format!("{message}: {help}"),
@@ -535,12 +535,12 @@ impl super::tree::Node {
     /// What it is, with an article, for messages.
     pub fn article(&self) -> &'static str {
         match &self.kind {
-            Kind::List(_) => "a list",
-            Kind::Map(_) => "a mapping",
-            Kind::Scalar { .. } if self.is_null() => "nothing",
-            Kind::Scalar { plain: true, text } if is_truth(text) => "true or false",
-            Kind::Scalar { plain: true, text } if is_number(text) => "a number",
-            Kind::Scalar { .. } => "a text",
+            NodeKind::List(_) => "a list",
+            NodeKind::Map(_) => "a mapping",
+            NodeKind::Scalar { .. } if self.is_null() => "nothing",
+            NodeKind::Scalar { plain: true, text } if is_truth(text) => "true or false",
+            NodeKind::Scalar { plain: true, text } if is_number(text) => "a number",
+            NodeKind::Scalar { .. } => "a text",
         }
     }
 }
@@ -590,7 +590,7 @@ impl<T: Shape> Shape for Vec<T> {
     }
 
     fn check(at: At<'_>, problems: &Problems) {
-        let Kind::List(items) = &at.node.kind else {
+        let NodeKind::List(items) = &at.node.kind else {
             problems.add(at.problem(
                 format!("here stands {}, but a list is needed", at.node.article()),
                 "write `[a, b]`, or one entry per line, each begun with `- `",
@@ -618,7 +618,7 @@ impl Shape for String {
             problems.add(at.problem(
                 format!("here stands {}, but a text is needed", at.node.article()),
                 match at.node.kind {
-                    Kind::Scalar { .. } => {
+                    NodeKind::Scalar { .. } => {
                         "put it in quotation marks if this is what it should be called"
                     }
                     _ => "write a word or a text in quotation marks",
@@ -640,7 +640,7 @@ impl Shape for u32 {
 
     fn check(at: At<'_>, problems: &Problems) {
         let whole = match &at.node.kind {
-            Kind::Scalar { text, .. } => text.parse::<u32>().is_ok(),
+            NodeKind::Scalar { text, .. } => text.parse::<u32>().is_ok(),
             _ => false,
         };
         if !whole {
@@ -703,7 +703,7 @@ impl<T: Shape> Shape for Named<T> {
     }
 
     fn check(at: At<'_>, problems: &Problems) {
-        let Kind::Map(entries) = &at.node.kind else {
+        let NodeKind::Map(entries) = &at.node.kind else {
             problems.add(at.problem(
                 format!(
                     "here stands {}, but names and their values are needed",

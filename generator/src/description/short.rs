@@ -6,7 +6,7 @@ use super::place::At;
 use super::quantity::{Number, Quantity};
 use super::schema::{Schema, any_of, list_of, typed};
 use super::shape::{Misfit, Problems, Record, Shape, check_record, misfit, record, words};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 use std::ops::Deref;
 
@@ -190,9 +190,11 @@ impl Shape for Include {
 
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::Map(_) if at.node.get("human").is_some() => check_record::<Person>(at, problems),
-            Kind::Map(_) if at.node.get("part").is_some() => check_record::<Part>(at, problems),
-            Kind::Map(_) => check_record::<Instance>(at, problems),
+            NodeKind::Map(_) if at.node.get("human").is_some() => {
+                check_record::<Person>(at, problems)
+            }
+            NodeKind::Map(_) if at.node.get("part").is_some() => check_record::<Part>(at, problems),
+            NodeKind::Map(_) => check_record::<Instance>(at, problems),
             _ => String::check(at, problems),
         }
     }
@@ -220,7 +222,7 @@ impl<T: Shape> Shape for Each<T> {
     }
 
     fn check(at: At<'_>, problems: &Problems) {
-        let Kind::List(items) = &at.node.kind else {
+        let NodeKind::List(items) = &at.node.kind else {
             return T::check(at, problems);
         };
         if items.is_empty() {
@@ -252,7 +254,7 @@ impl<R: Record + Shape> Shape for ByName<R> {
 
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::Map(_) => check_record::<R>(at, problems),
+            NodeKind::Map(_) => check_record::<R>(at, problems),
             _ => Each::<String>::check(at, problems),
         }
     }

@@ -2,7 +2,7 @@
 //! typographic signs. They are looked for only where something is wrong.
 
 use super::place::At;
-use super::tree::{Kind, Span};
+use super::tree::{NodeKind, Span};
 use crate::diagnostic::excerpt;
 
 /// A slip: where it is, what it is, and what would be right.
@@ -227,7 +227,7 @@ pub fn key_meant(written: &str, known: &[&str]) -> Option<Meant> {
 
 /// What is wrong with a list that has too many or too few entries, if this is seen from its signs.
 pub fn in_list(at: At<'_>) -> Option<String> {
-    let Kind::List(items) = &at.node.kind else {
+    let NodeKind::List(items) = &at.node.kind else {
         return None;
     };
     let text = |index: usize| items.get(index).and_then(super::tree::Node::text);

@@ -7,7 +7,7 @@ use super::place::At;
 use super::quantity::{Number, OneOrThree};
 use super::schema::{Schema, any_of, words};
 use super::shape::{Misfit, Named, Problems, Shape, check_record, check_word_or, record};
-use super::tree::Kind;
+use super::tree::NodeKind;
 use serde_yaml::Value;
 
 record! {
@@ -110,8 +110,8 @@ impl Shape for Reference {
 
     fn check(at: At<'_>, problems: &Problems) {
         match at.node.kind {
-            Kind::Map(_) if at.node.get("on").is_some() => check_record::<Riding>(at, problems),
-            Kind::Map(_) => check_record::<Prescribed>(at, problems),
+            NodeKind::Map(_) if at.node.get("on").is_some() => check_record::<Riding>(at, problems),
+            NodeKind::Map(_) => check_record::<Prescribed>(at, problems),
             _ => check_word_or(at, &["free", "fixed"], OTHERWISE, problems),
         }
     }

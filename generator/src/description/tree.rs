@@ -48,12 +48,12 @@ pub struct Node {
     /// Where it begins.
     pub span: Span,
     /// What it is.
-    pub kind: Kind,
+    pub kind: NodeKind,
 }
 
 /// What a node holds.
 #[derive(Clone, Debug)]
-pub enum Kind {
+pub enum NodeKind {
     /// Text or a number; `plain` where it stands without quotation marks.
     Scalar {
         /// As read, escapes resolved.
@@ -82,7 +82,7 @@ impl Node {
     /// The value of a key.
     pub fn get(&self, key: &str) -> Option<&Node> {
         match &self.kind {
-            Kind::Map(entries) => entries.iter().find(|e| e.key == key).map(|e| &e.value),
+            NodeKind::Map(entries) => entries.iter().find(|e| e.key == key).map(|e| &e.value),
             _ => None,
         }
     }
@@ -90,14 +90,14 @@ impl Node {
     /// Whether another node says the same, wherever it stands; 0 and −0 are one number.
     pub fn reads_as(&self, other: &Node) -> bool {
         match (&self.kind, &other.kind) {
-            (Kind::Scalar { text: a, .. }, Kind::Scalar { text: b, .. }) => {
+            (NodeKind::Scalar { text: a, .. }, NodeKind::Scalar { text: b, .. }) => {
                 let zero = |text: &str| text.trim_start_matches('-').parse() == Ok(0.0f64);
                 a == b || zero(a) && zero(b)
             }
-            (Kind::List(a), Kind::List(b)) => {
+            (NodeKind::List(a), NodeKind::List(b)) => {
                 a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.reads_as(b))
             }
-            (Kind::Map(a), Kind::Map(b)) => {
+            (NodeKind::Map(a), NodeKind::Map(b)) => {
                 let has = |entry: &Entry| {
                     other
                         .get(&entry.key)
@@ -111,7 +111,7 @@ impl Node {
 
     /// True for a key without a value, `~` and `null`.
     pub fn is_null(&self) -> bool {
-        matches!(&self.kind, Kind::Scalar { text, plain: true }
+        matches!(&self.kind, NodeKind::Scalar { text, plain: true }
             if matches!(text.as_str(), "" | "~" | "null" | "Null" | "NULL"))
     }
 }
@@ -185,17 +185,17 @@ impl Builder<'_> {
                 }
                 Event::Scalar(text, style, _, _) => Node {
                     span,
-                    kind: Kind::Scalar {
+                    kind: NodeKind::Scalar {
                         text: text.into_owned(),
                         plain: style == ScalarStyle::Plain,
                     },
                 },
                 Event::SequenceStart(..) => {
-                    self.open(&mut open, Kind::List(Vec::new()), span)?;
+                    self.open(&mut open, NodeKind::List(Vec::new()), span)?;
                     continue;
                 }
                 Event::MappingStart(..) => {
-                    self.open(&mut open, Kind::Map(Vec::new()), span)?;
+                    self.open(&mut open, NodeKind::Map(Vec::new()), span)?;
                     continue;
                 }
                 Event::SequenceEnd | Event::MappingEnd => {
@@ -254,12 +254,17 @@ impl Builder<'_> {
     }
 
     /// Begins a list or a mapping.
-    fn open(&self, open: &mut Vec<Open>, kind: Kind, span: Span) -> Result<(), Box<Diagnostic>> {
+    fn open(
+        &self,
+        open: &mut Vec<Open>,
+        kind: NodeKind,
+        span: Span,
+    ) -> Result<(), Box<Diagnostic>> {
         if open.len() == MAX_DEPTH {
             return Err(self.too_deep(span));
         }
         if let Some(parent) = open.last()
-            && matches!(parent.node.kind, Kind::Map(_))
+            && matches!(parent.node.kind, NodeKind::Map(_))
             && parent.key.is_none()
         {
             return Err(self.problem(
@@ -287,12 +292,12 @@ impl Builder<'_> {
     /// Puts a value in its list, or under its key; or keeps it as the key of the next value.
     fn add(&self, parent: &mut Open, value: Node) -> Result<(), Box<Diagnostic>> {
         let length = match &mut parent.node.kind {
-            Kind::Scalar { .. } => 0,
-            Kind::List(items) => {
+            NodeKind::Scalar { .. } => 0,
+            NodeKind::List(items) => {
                 items.push(value);
                 items.len()
             }
-            Kind::Map(entries) => match (parent.key.take(), value.kind) {
+            NodeKind::Map(entries) => match (parent.key.take(), value.kind) {
                 (Some((key, span)), kind) => {
                     entries.push(Entry {
                         key,
@@ -304,7 +309,7 @@ impl Builder<'_> {
                     });
                     entries.len()
                 }
-                (None, Kind::Scalar { text, .. }) => {
+                (None, NodeKind::Scalar { text, .. }) => {
                     if !parent.keys.insert(text.clone()) {
                         let first = entries.iter().find(|e| e.key == text);
                         return Err(self.problem(
@@ -392,7 +397,7 @@ impl Builder<'_> {
             "text that holds `: ` needs quotation marks; two keys on one line stand in `{ a: 1, b: 2 }`"
         } else if let Some(collection) = open.last() {
             match collection.node.kind {
-                Kind::List(_) => {
+                NodeKind::List(_) => {
                     "look for a `]`, a comma or a quotation mark that is missing, or for lines indented differently"
                 }
                 _ => {

@@ -1,6 +1,6 @@
 //! What a file is, by its content: for the message where a model was expected.
 
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 use crate::diagnostic::quoted;
 
 /// What a file is, where it is no model, and what to do with it.
@@ -85,7 +85,7 @@ fn is_table(text: &str) -> bool {
 
 /// What a tree is that was expected to be a model, if it is something else that is known. `name` is that of its file.
 pub fn instead_of_model(root: &Node, name: &str) -> Option<What> {
-    let Kind::Map(entries) = &root.kind else {
+    let NodeKind::Map(entries) = &root.kind else {
         return None;
     };
     let has = |key: &str| root.get(key).is_some();

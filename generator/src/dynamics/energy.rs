@@ -7,7 +7,7 @@
 //! added, where M is the moment that the root's joint transmits. The drive of a vehicle overcomes the forces F on it
 //! and their moment M about its origin, with the power −F·ẋ − M·ω.
 
-use super::outputs::Scene;
+use super::outputs::ModelInMotion;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::force::Product;
@@ -15,7 +15,7 @@ use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 use crate::motion::numbers::{number, vector};
 
 /// The kinetic energy T \[J\].
-pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
+pub fn kinetic_energy<'g>(scene: &ModelInMotion<'g, '_>) -> Expr<'g> {
     scene.graph.section("kinetic energy");
     let systems = 0..scene.model.systems.len();
     let size = Projection::absolute(Component::Resultant);
@@ -25,7 +25,7 @@ pub fn kinetic_energy<'g>(scene: &Scene<'g, '_>) -> Expr<'g> {
 
 /// The power M·ω of a turning vehicle on a root that turns with it; M is the moment about the reference joint.
 fn turning_power<'g>(
-    scene: &Scene<'g, '_>,
+    scene: &ModelInMotion<'g, '_>,
     system: usize,
     vehicle: usize,
     reaction: Vec3<'g>,
@@ -41,7 +41,7 @@ fn turning_power<'g>(
 }
 
 /// The name and the power P of each effect \[W\], in the order of the model's forces; prescribed motions come last.
-pub fn powers<'g>(scene: &Scene<'g, '_>) -> Vec<(String, Expr<'g>)> {
+pub fn powers<'g>(scene: &ModelInMotion<'g, '_>) -> Vec<(String, Expr<'g>)> {
     let graph = scene.graph;
     let mut powers: Vec<(String, Expr<'g>)> = Vec::new();
     for work in &scene.applied.works {

@@ -73,7 +73,7 @@ use crate::motion::{Layout, Motion, State};
 use augmented::{AugmentedTree, Omitted};
 use functions::{Known, Request};
 use matrices::{Matrices, with_axes};
-use outputs::Scene;
+use outputs::ModelInMotion;
 use spatial::Spatial;
 
 /// Options of the derivation.
@@ -240,7 +240,7 @@ fn in_graph(
     let pivots = pivots(graph, model, &layout, &systems, &matrices.mass);
     let accelerations = accelerations(graph, &layout, route, &systems, &applied, &matrices);
     let rates = layout.coordinate_rates(graph, model, &state);
-    let scene = Scene {
+    let scene = ModelInMotion {
         graph,
         model,
         layout: &layout,

@@ -5,14 +5,14 @@
 //! elements, at r, and M moments. A force between two of their elements counts on both and cancels. Systems that are
 //! held or moved, vehicles and the absolute frame are outside.
 
-use super::outputs::Scene;
+use super::outputs::ModelInMotion;
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, sum};
 use crate::model::{Component, ElementId, Projection, Reference, SystemQuantity};
 use crate::motion::numbers::{number, vector};
 
 /// The systems whose reference joint is free and whose root turns freely.
-fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
+fn free(scene: &ModelInMotion<'_, '_>) -> Vec<usize> {
     let systems = scene.model.systems.iter().enumerate();
     systems
         .filter(|(_, system)| {
@@ -25,7 +25,7 @@ fn free(scene: &Scene<'_, '_>) -> Vec<usize> {
 }
 
 /// p \[N s\] and L \[N m s\], in absolute axes; empty if no system is free.
-pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+pub fn momentum<'g>(scene: &ModelInMotion<'g, '_>) -> Vec<Expr<'g>> {
     let free = free(scene);
     if free.is_empty() {
         return Vec::new();
@@ -43,7 +43,7 @@ pub fn momentum<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 /// Σ F \[N\] and Σ (r × F + M) \[N m\], the rates of [`momentum`]; empty if no system is free.
-pub fn external_wrench<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+pub fn external_wrench<'g>(scene: &ModelInMotion<'g, '_>) -> Vec<Expr<'g>> {
     let free = free(scene);
     if free.is_empty() {
         return Vec::new();

@@ -29,7 +29,7 @@ use crate::motion::numbers::{arithmetic, number, vector};
 use crate::motion::{ElementMotion, Layout, Motion};
 
 /// The values of the model's outputs, in their order.
-pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+pub fn outputs<'g>(scene: &ModelInMotion<'g, '_>) -> Vec<Expr<'g>> {
     scene
         .model
         .outputs
@@ -46,7 +46,7 @@ pub fn outputs<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 /// All derived quantities of a model in motion.
-pub struct Scene<'g, 'a> {
+pub struct ModelInMotion<'g, 'a> {
     /// The graph of the expressions.
     pub graph: &'g Graph,
     /// The model.
@@ -63,7 +63,7 @@ pub struct Scene<'g, 'a> {
     pub accelerations: &'a [Expr<'g>],
 }
 
-impl<'g> Scene<'g, '_> {
+impl<'g> ModelInMotion<'g, '_> {
     /// The quantities that trigger switches; `None` for a switch at a time.
     pub fn triggers(&self) -> Vec<Option<Expr<'g>>> {
         let of = |switch: &Switch| {

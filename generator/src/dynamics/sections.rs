@@ -1,6 +1,6 @@
 //! The sections of a model that nothing else is made of: what each computes, and from what it may start.
 
-use super::outputs::Scene;
+use super::outputs::ModelInMotion;
 use super::{energy, momentum, named};
 use crate::equations::Section;
 use crate::expression::Expr;
@@ -10,7 +10,7 @@ use crate::method::{Method, Start};
 type Values<'g> = Vec<(String, Expr<'g>)>;
 
 /// A function that derives the values of a section.
-type Derive = for<'g> fn(&Scene<'g, '_>) -> Values<'g>;
+type Derive = for<'g> fn(&ModelInMotion<'g, '_>) -> Values<'g>;
 
 /// A row for each section. The runtime has a row of the same name in its own table (`section.rs`).
 const SECTIONS: &[(Method, Start, Derive)] = &[
@@ -27,7 +27,7 @@ const SECTIONS: &[(Method, Start, Derive)] = &[
 ];
 
 /// The sections that a model has.
-pub(super) fn of(scene: &Scene<'_, '_>) -> Vec<Section> {
+pub(super) fn of(scene: &ModelInMotion<'_, '_>) -> Vec<Section> {
     let sections = SECTIONS.iter().map(|&(method, start, values)| Section {
         method,
         values: named(&values(scene)),

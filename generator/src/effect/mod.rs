@@ -3,27 +3,27 @@
 //! S v̇ = r_s + r_k = Σ effects
 //!
 //! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model. From the same
-//! expressions as the equations it finds which effects vanish by the structure of the model. [`of_scene`] adds where the
-//! text calls for each effect, and what the text mentions without effect. [`without`](fn@without) leaves one effect out;
+//! expressions as the equations it finds which effects vanish by the structure of the model. [`of_annotated_model`] adds
+//! where the text calls for each effect, and what the text mentions without effect. [`without`](fn@without) leaves one effect out;
 //! [`general`](fn@general) leaves out none.
 
+mod annotated_model;
 mod cost;
 mod general;
 mod name;
 mod planar;
-mod scene;
 mod structure;
 mod summary;
 mod without;
 
+pub use annotated_model::of_annotated_model;
 pub use cost::{Cost, cost, counted};
 pub use general::general;
-pub use scene::of_scene;
 pub use summary::summary;
 pub use without::{Variant, without};
 
 use crate::law::types::Field;
-use crate::model::scene::Place;
+use crate::model::annotated_model::SourceLine;
 use crate::model::{Dimension, ElementId, Model, Reference};
 use structure::{Felt, Gyroscopic, Structure};
 
@@ -117,7 +117,7 @@ pub struct Entry {
     /// The reason in words; empty if the place says everything.
     pub why: String,
     /// The place in the text that calls for it or switches it off.
-    pub place: Option<Place>,
+    pub place: Option<SourceLine>,
 }
 
 impl Entry {
@@ -151,7 +151,7 @@ impl Entry {
     }
 
     /// An entry for an effect that only the text mentions.
-    fn switched_off(name: String, why: impl Into<String>, place: Option<Place>) -> Self {
+    fn switched_off(name: String, why: impl Into<String>, place: Option<SourceLine>) -> Self {
         Entry {
             name,
             is_in: false,

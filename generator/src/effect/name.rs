@@ -36,7 +36,7 @@ impl Effect {
         format!("{owner}: {part}")
     }
 
-    /// The owner of its keys in [`Places`](crate::model::scene::Places).
+    /// The owner of its keys in [`Places`](crate::model::annotated_model::SourceLines).
     pub fn owner(self, model: &Model) -> String {
         match self {
             Effect::OutOfPlane => "model".to_owned(),

@@ -17,9 +17,9 @@ pub struct Events<'g> {
     /// that they do not change the equations.
     kinks: Vec<(String, Box<dyn Fn() -> Expr<'g> + 'g>)>,
     /// The onsets of laws, by name, made like the kinks.
-    pub(super) onsets: Vec<onset::Told<'g>>,
+    pub(super) onsets: Vec<onset::DeferredOnset<'g>>,
     /// The distance to the nearest corner of each curve of the state, by name, made like the onsets.
-    pub(super) corners: Vec<onset::Told<'g>>,
+    pub(super) corners: Vec<onset::DeferredOnset<'g>>,
     /// Curves whose argument depends on the state, and quantities watched like one, made like the kinks.
     curves: Vec<CurveOfState<'g>>,
     /// By curve of the model: true if the curve has kinks.

@@ -28,7 +28,7 @@ use crate::motion::numbers::{breakpoint_indicator, rate};
 pub const FAR: f64 = 1e30;
 
 /// The name of an onset, and the function that makes it after all other expressions are made.
-pub type Told<'g> = (String, Box<dyn Fn() -> Onset<'g> + 'g>);
+pub type DeferredOnset<'g> = (String, Box<dyn Fn() -> Onset<'g> + 'g>);
 
 /// The gap and the speed of a law.
 #[derive(Clone, Copy)]
@@ -121,7 +121,7 @@ impl<'g> AppliedForces<'g> {
         [&self.events.onsets, &self.events.corners].map(|onsets| Self::made(graph, onsets))
     }
 
-    fn made(graph: &'g Graph, onsets: &[Told<'g>]) -> Vec<(String, Onset<'g>)> {
+    fn made(graph: &'g Graph, onsets: &[DeferredOnset<'g>]) -> Vec<(String, Onset<'g>)> {
         let mut exact = Recall::new(graph, exact);
         let made = onsets.iter().map(|(name, onset)| {
             graph.section(format!("onset {name}"));

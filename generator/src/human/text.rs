@@ -145,7 +145,7 @@ pub fn yaml(person: &Person, written: Written<'_>) -> Result<String, String> {
     let name = written.name;
     let mut text = head(person, &body);
     let _ = write!(text, "systems:\n  - name: {name}\n    elements:\n");
-    let scene = Scene {
+    let scene = BodyWriter {
         body: &body,
         written,
         factor: strength(&body),
@@ -235,14 +235,14 @@ fn strength(body: &Body) -> f64 {
 }
 
 /// A body while it is written as text.
-struct Scene<'a> {
+struct BodyWriter<'a> {
     body: &'a Body,
     written: Written<'a>,
     factor: f64,
     dummy: Option<Made>,
 }
 
-impl Scene<'_> {
+impl BodyWriter<'_> {
     /// Whether a pair is written as one side with a mirror image.
     fn mirrors(&self, pair: bool) -> bool {
         pair && !self.written.planar

@@ -22,7 +22,8 @@ pub struct Curve {
     /// Extrapolation beyond the points.
     pub extrapolate: Extrapolate,
     /// True if the description states the extrapolation. Otherwise a run that leaves the curve raises a doubt.
-    pub told: bool,
+    #[serde(rename = "told")]
+    pub states_extrapolation: bool,
     /// Points of the curve's file that were left out; `None` if there are none.
     #[serde(skip)]
     pub thinned: Option<Thinned>,

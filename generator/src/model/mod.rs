@@ -30,10 +30,10 @@ pub mod placement;
 mod quantity;
 pub(crate) mod requirement;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
+pub mod annotated_model;
 #[doc(hidden)]
 pub mod resolve;
 pub mod rule;
-pub mod scene;
 mod surface;
 mod switch;
 mod system;

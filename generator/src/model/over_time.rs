@@ -17,7 +17,7 @@ impl Model {
             points,
             interpolate: Interpolate::Linear,
             extrapolate: Extrapolate::Hold,
-            told: true,
+            states_extrapolation: true,
             thinned: None,
         };
         self.curves.push(all.with_at_most(MAX_POINTS));

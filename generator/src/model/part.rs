@@ -304,7 +304,7 @@ impl Fresh<'_> {
                 points: vec![[-1.0, -1.0], [1.0, 1.0]],
                 interpolate: Interpolate::Linear,
                 extrapolate: Extrapolate::Linear,
-                told: true,
+                states_extrapolation: true,
                 thinned: None,
             });
             self.curves.len() - 1

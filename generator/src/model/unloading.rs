@@ -31,7 +31,7 @@ pub fn nothing() -> Curve {
         points: vec![[0.0, 0.0], [1.0, 0.0]],
         interpolate: Interpolate::Linear,
         extrapolate: Extrapolate::Hold,
-        told: true,
+        states_extrapolation: true,
         thinned: None,
     }
 }

@@ -22,7 +22,7 @@ pub struct Facts {
     /// Names of v, in order.
     pub velocities: Vec<String>,
     /// The kind of each entry of the state: q, v, z, m.
-    pub kinds: Vec<Kind>,
+    pub kinds: Vec<StateKind>,
     /// SI unit of each entry of the state, "" for a pure number.
     pub units: Vec<String>,
     /// Names of z, in order.
@@ -66,7 +66,7 @@ pub struct Facts {
 
 /// The kind of an entry of the state, like the runtime's `StateKind`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Kind {
+pub enum StateKind {
     /// A coordinate of a reference joint \[m\].
     Position,
     /// An angle \[rad\], or a component of a unit quaternion.
@@ -95,7 +95,7 @@ pub struct Watched {
     /// Its extrapolation beyond the end points.
     pub extrapolate: Extrapolate,
     /// True if the description states the extrapolation, false if it is the default.
-    pub told: bool,
+    pub states_extrapolation: bool,
     /// The kind of watched quantity.
     pub kind: crate::equations::Watched,
 }
@@ -186,8 +186,8 @@ fn names<T>(of: &[T], name: impl Fn(&T) -> &String) -> Vec<String> {
 }
 
 /// The kind of each entry of the state: q, v, z, m.
-fn kinds(equations: &Equations) -> Vec<Kind> {
-    let of = |variables: &[Variable], [joint, element]: [Kind; 2]| {
+fn kinds(equations: &Equations) -> Vec<StateKind> {
+    let of = |variables: &[Variable], [joint, element]: [StateKind; 2]| {
         let kind = |variable: &Variable| match variable.element {
             None => joint,
             Some(_) => element,
@@ -195,13 +195,16 @@ fn kinds(equations: &Equations) -> Vec<Kind> {
         variables.iter().map(kind).collect::<Vec<_>>()
     };
     [
-        of(&equations.coordinates, [Kind::Position, Kind::Angle]),
+        of(
+            &equations.coordinates,
+            [StateKind::Position, StateKind::Angle],
+        ),
         of(
             &equations.velocities,
-            [Kind::Velocity, Kind::AngularVelocity],
+            [StateKind::Velocity, StateKind::AngularVelocity],
         ),
-        vec![Kind::Law; equations.auxiliaries.len()],
-        vec![Kind::Memory; equations.memory.len()],
+        vec![StateKind::Law; equations.auxiliaries.len()],
+        vec![StateKind::Memory; equations.memory.len()],
     ]
     .concat()
 }
@@ -246,7 +249,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
                 range,
                 ends: [0.0; 2],
                 extrapolate: Extrapolate::Hold,
-                told: true,
+                states_extrapolation: true,
                 kind: watched.what,
             };
         };
@@ -260,7 +263,7 @@ fn watched(model: &Model, equations: &Equations) -> Vec<Watched> {
             range: [first, last],
             ends: [start, end],
             extrapolate: curve.extrapolate,
-            told: curve.told,
+            states_extrapolation: curve.states_extrapolation,
             kind: crate::equations::Watched::Curve(index, ""),
         }
     };

@@ -29,7 +29,7 @@ pub(crate) enum Operator {
 
 /// An operation that is written as a method call on its first operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Method {
+pub(crate) enum MethodOperation {
     Sqrt,
     Atan2,
     Max,
@@ -55,7 +55,7 @@ pub(crate) trait Form {
     fn method<const N: usize>(
         &self,
         receiver: Self::Term,
-        method: Method,
+        method: MethodOperation,
         others: [Self::Term; N],
     ) -> Self::Term;
     /// One result of the joint sine and cosine of an argument: sine (0) or cosine (1).
@@ -145,13 +145,17 @@ impl<F: Form> Formulas<'_, F> {
             Node::Mul(a, b) => self.product(a, b),
             Node::Div(a, b) => self.binary(self.operand(a), Operator::Over, self.operand(b)),
             Node::MulAdd(a, b, c) => self.fused(a, b, c),
-            Node::Sqrt(a) => Text::word(self.form.method(self.receiver(a), Method::Sqrt, [])),
+            Node::Sqrt(a) => Text::word(self.form.method(
+                self.receiver(a),
+                MethodOperation::Sqrt,
+                [],
+            )),
             // Sine and cosine of one argument are usually bound together by one statement; this writes a single one.
             Node::Sin(a) => Text::word(self.form.half_of_pair(self.receiver(a), 0)),
             Node::Cos(a) => Text::word(self.form.half_of_pair(self.receiver(a), 1)),
-            Node::Atan2(a, b) => self.method(a, Method::Atan2, b),
-            Node::Max(a, b) => self.symmetric_method(a, Method::Max, b),
-            Node::Min(a, b) => self.symmetric_method(a, Method::Min, b),
+            Node::Atan2(a, b) => self.method(a, MethodOperation::Atan2, b),
+            Node::Max(a, b) => self.symmetric_method(a, MethodOperation::Max, b),
+            Node::Min(a, b) => self.symmetric_method(a, MethodOperation::Min, b),
             Node::Call(function, _) => {
                 let arguments = self.schedule.graph.arguments(id).into_iter();
                 let arguments = arguments.map(|id| self.value(id)).collect();
@@ -261,15 +265,15 @@ impl<F: Form> Formulas<'_, F> {
         }
         let others = [factor.of, self.operand(c).of];
         let receiver = self.at(receiver, Level::Word);
-        Text::word(self.form.method(receiver, Method::MulAdd, others))
+        Text::word(self.form.method(receiver, MethodOperation::MulAdd, others))
     }
 
-    fn method(&self, receiver: NodeId, method: Method, other: NodeId) -> Text<F::Term> {
+    fn method(&self, receiver: NodeId, method: MethodOperation, other: NodeId) -> Text<F::Term> {
         let receiver = self.receiver(receiver);
         Text::word(self.form.method(receiver, method, [self.value(other)]))
     }
 
-    fn symmetric_method(&self, a: NodeId, method: Method, b: NodeId) -> Text<F::Term> {
+    fn symmetric_method(&self, a: NodeId, method: MethodOperation, b: NodeId) -> Text<F::Term> {
         // x.max(0) reads better than 0.max(x).
         match self.constant(a) {
             Some(_) => self.method(b, method, a),

@@ -2,7 +2,7 @@
 //!
 //! Equal operations on equal operands become one. That changes no bit, and a compiler does it, too.
 
-use super::formula::{Form, Formulas, Method, Operator};
+use super::formula::{Form, Formulas, MethodOperation, Operator};
 use super::schedule::{Schedule, Statement, index};
 use crate::expression::{Function, NodeId, Symbol};
 use crate::method::inputs::{self, Inputs};
@@ -172,7 +172,7 @@ impl Writer<'_> {
             // Results are collected after all lines.
             Statement::Put(_) => return,
         };
-        let bindings = self.schedule.bindings(statement);
+        let bindings = self.schedule.results_by_place(statement);
         let mut list = self.list.borrow_mut();
         for (place, id) in bindings.into_iter().enumerate() {
             if let Some(id) = id {
@@ -236,16 +236,21 @@ impl Form for Writer<'_> {
         }
     }
 
-    fn method<const N: usize>(&self, receiver: Term, method: Method, others: [Term; N]) -> Term {
+    fn method<const N: usize>(
+        &self,
+        receiver: Term,
+        method: MethodOperation,
+        others: [Term; N],
+    ) -> Term {
         let mut list = self.list.borrow_mut();
         let operands = |i: usize| others.get(i).copied().unwrap_or(receiver);
         let two = [receiver, operands(0)];
         match method {
-            Method::Sqrt => list.algebra(6, [receiver], |[a]| Operation::Sqrt(a)),
-            Method::Atan2 => list.algebra(7, two, |[a, b]| Operation::Atan2(a, b)),
-            Method::Max => list.algebra(8, two, |[a, b]| Operation::Max(a, b)),
-            Method::Min => list.algebra(9, two, |[a, b]| Operation::Min(a, b)),
-            Method::MulAdd => {
+            MethodOperation::Sqrt => list.algebra(6, [receiver], |[a]| Operation::Sqrt(a)),
+            MethodOperation::Atan2 => list.algebra(7, two, |[a, b]| Operation::Atan2(a, b)),
+            MethodOperation::Max => list.algebra(8, two, |[a, b]| Operation::Max(a, b)),
+            MethodOperation::Min => list.algebra(9, two, |[a, b]| Operation::Min(a, b)),
+            MethodOperation::MulAdd => {
                 let three = [receiver, operands(0), operands(1)];
                 list.algebra(10, three, |[a, b, c]| Operation::MulAdd(a, b, c))
             }

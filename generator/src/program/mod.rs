@@ -54,7 +54,7 @@ use std::borrow::Cow;
 pub use crate::method::{Method, Start};
 pub(crate) use assemble::neighbours;
 pub use assemble::{counted_lists, lists};
-pub use facts::{Adjustable, Column, Facts, Kind, Watched};
+pub use facts::{Adjustable, Column, Facts, StateKind, Watched};
 pub use form::FORM;
 pub use join::Methods;
 pub use list::{Input, List, Operation, Value};

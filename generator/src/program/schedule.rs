@@ -100,7 +100,7 @@ impl Schedule {
                 },
                 _ => Statement::Value(id),
             };
-            for bound in schedule.bound(statement) {
+            for bound in schedule.bound_values(statement) {
                 schedule.binds[index(bound)] = true;
             }
             schedule.lines.push(Line {
@@ -119,7 +119,7 @@ impl Schedule {
     fn put_results(&mut self) {
         let mut line_of = vec![None; self.graph.len()];
         for (number, line) in self.lines.iter().enumerate() {
-            for id in self.bound(line.statement) {
+            for id in self.bound_values(line.statement) {
                 line_of[index(id)] = Some(number);
             }
         }
@@ -156,17 +156,13 @@ impl Schedule {
     }
 
     /// The values that a statement binds.
-    pub(crate) fn bound(&self, statement: Statement) -> Vec<NodeId> {
-        match statement {
-            Statement::Value(id) => vec![id],
-            Statement::SinCos { sin, cos, .. } => sin.into_iter().chain(cos).collect(),
-            Statement::Results(call) => self.calls[call].iter().copied().flatten().collect(),
-            Statement::Put(_) => Vec::new(),
-        }
+    pub(crate) fn bound_values(&self, statement: Statement) -> Vec<NodeId> {
+        let results = self.results_by_place(statement);
+        results.into_iter().flatten().collect()
     }
 
-    /// The values that a statement binds, at their places; `None` for an unused one.
-    pub(crate) fn bindings(&self, statement: Statement) -> Vec<Option<NodeId>> {
+    /// The results of a statement, at their places; `None` for one that is unused and so is not bound.
+    pub(crate) fn results_by_place(&self, statement: Statement) -> Vec<Option<NodeId>> {
         match statement {
             Statement::Value(id) => vec![Some(id)],
             Statement::SinCos { sin, cos, .. } => vec![sin, cos],

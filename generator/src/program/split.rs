@@ -55,7 +55,7 @@ pub(crate) fn pieces(schedule: &Schedule, limit: usize) -> Vec<Piece> {
                 .collect();
             let bound = schedule.lines[range.clone()]
                 .iter()
-                .flat_map(|line| schedule.bound(line.statement));
+                .flat_map(|line| schedule.bound_values(line.statement));
             Piece {
                 passes_on: if i == last {
                     Vec::new()
@@ -81,7 +81,7 @@ fn reads_of(schedule: &Schedule, statement: Statement) -> BTreeSet<NodeId> {
 fn lines_of(schedule: &Schedule) -> Vec<Option<usize>> {
     let mut lines = vec![None; schedule.graph.len()];
     for (number, line) in schedule.lines.iter().enumerate() {
-        for id in schedule.bound(line.statement) {
+        for id in schedule.bound_values(line.statement) {
             lines[id.0 as usize] = Some(number);
         }
     }

@@ -2,7 +2,7 @@
 
 use super::known::{Element, Fate};
 use super::reader::Reader;
-use super::robot::{LeftOut, Place, Why};
+use super::robot::{LeftOut, TextPlace, Why};
 use crate::diagnostic::quoted;
 use roxmltree::Node;
 use std::collections::BTreeMap;
@@ -72,7 +72,7 @@ impl Reader<'_> {
     }
 
     /// Does with a part what is declared.
-    fn follow(&self, node: Node<'_, '_>, place: Place, fate: Fate) {
+    fn follow(&self, node: Node<'_, '_>, place: TextPlace, fate: Fate) {
         match fate {
             Fate::Read | Fate::Partly => {}
             Fate::Idle(what) => self.leave_out(node, place, Why::Idle, what),
@@ -84,7 +84,7 @@ impl Reader<'_> {
     }
 
     /// Lists a part that is not taken over.
-    pub fn leave_out(&self, node: Node<'_, '_>, place: Place, why: Why, what: &str) {
+    pub fn leave_out(&self, node: Node<'_, '_>, place: TextPlace, why: Why, what: &str) {
         self.left_out.borrow_mut().push(LeftOut {
             why,
             what: what.to_owned(),
@@ -97,7 +97,7 @@ impl Reader<'_> {
     fn unknown<'k>(
         &self,
         node: Node<'_, '_>,
-        place: Place,
+        place: TextPlace,
         (name, what): (&str, String),
         candidates: impl Iterator<Item = &'k str>,
     ) {

@@ -2,7 +2,7 @@
 
 use super::inspect::misspelt;
 use super::reader::Reader;
-use super::robot::{Joint, Kind, Limits, Mimic, Why};
+use super::robot::{Joint, JointType, Limits, Mimic, Why};
 use crate::diagnostic::quoted;
 use crate::rotation::{Vector, length, scale};
 use roxmltree::Node;
@@ -43,17 +43,17 @@ impl<'a> Reader<'a> {
     }
 
     /// Lists the elements of a joint that its type has no use for.
-    fn without_use(&self, node: Node<'a, 'a>, kind: Kind) {
+    fn without_use(&self, node: Node<'a, 'a>, kind: JointType) {
         let tags: &[(&str, Why, &str)] = match kind {
-            Kind::Fixed => &[
+            JointType::Fixed => &[
                 ("dynamics", Why::Idle, "<dynamics> of fixed joints"),
                 ("mimic", Why::Idle, "<mimic> of fixed joints"),
             ],
-            Kind::Floating => &[
+            JointType::Floating => &[
                 ("dynamics", Why::Missing, "<dynamics> of floating joints"),
                 ("mimic", Why::Missing, "<mimic> of floating joints"),
             ],
-            Kind::Continuous | Kind::Planar => {
+            JointType::Continuous | JointType::Planar => {
                 let limit = self.xml.child(node, "limit");
                 if let Some(limit) =
                     limit.filter(|l| l.attribute("lower").or(l.attribute("upper")).is_some())
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
                 }
                 &[]
             }
-            Kind::Revolute | Kind::Prismatic => &[],
+            JointType::Revolute | JointType::Prismatic => &[],
         };
         for (tag, why, what) in tags {
             if let Some(found) = self.xml.child(node, tag) {
@@ -73,14 +73,14 @@ impl<'a> Reader<'a> {
     }
 
     /// The type of a joint.
-    fn kind(&self, node: Node<'_, '_>, joint: &str) -> Option<Kind> {
+    fn kind(&self, node: Node<'_, '_>, joint: &str) -> Option<JointType> {
         let message = match node.attribute("type") {
-            Some("fixed") => return Some(Kind::Fixed),
-            Some("revolute") => return Some(Kind::Revolute),
-            Some("continuous") => return Some(Kind::Continuous),
-            Some("prismatic") => return Some(Kind::Prismatic),
-            Some("planar") => return Some(Kind::Planar),
-            Some("floating") => return Some(Kind::Floating),
+            Some("fixed") => return Some(JointType::Fixed),
+            Some("revolute") => return Some(JointType::Revolute),
+            Some("continuous") => return Some(JointType::Continuous),
+            Some("prismatic") => return Some(JointType::Prismatic),
+            Some("planar") => return Some(JointType::Planar),
+            Some("floating") => return Some(JointType::Floating),
             Some(other) => format!("there is no type of joint {}", quoted(other)),
             None => format!("the joint {} has no type", quoted(joint)),
         };
@@ -137,9 +137,9 @@ impl<'a> Reader<'a> {
     }
 
     /// The axis of a joint, at unit length; x where none is written or the joint has none.
-    fn axis(&self, node: Node<'a, 'a>, kind: Kind, joint: &str) -> Vector {
+    fn axis(&self, node: Node<'a, 'a>, kind: JointType, joint: &str) -> Vector {
         const X: Vector = [1.0, 0.0, 0.0];
-        let moves = !matches!(kind, Kind::Fixed | Kind::Floating);
+        let moves = !matches!(kind, JointType::Fixed | JointType::Floating);
         let Some(axis) = self.xml.child(node, "axis").filter(|_| moves) else {
             return X;
         };
@@ -223,11 +223,11 @@ impl<'a> Reader<'a> {
     fn limits(
         &self,
         limit: Option<Node<'a, 'a>>,
-        kind: Kind,
+        kind: JointType,
         joint: &str,
         node: Node<'_, '_>,
     ) -> Option<Limits> {
-        let needs = matches!(kind, Kind::Revolute | Kind::Prismatic);
+        let needs = matches!(kind, JointType::Revolute | JointType::Prismatic);
         let Some(limit) = limit else {
             if needs {
                 self.problem(self.xml.place(node), format!("the joint {} has no limits", quoted(joint)), "add `<limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/>`, or make it continuous");

@@ -1,6 +1,6 @@
 //! Bodies that move and have no mass: which they are, and what to do.
 
-use super::robot::{Joint, Kind, Link, Robot};
+use super::robot::{Joint, JointType, Link, Robot};
 use super::tree::{Problem, Repair};
 use crate::diagnostic::quoted;
 
@@ -18,7 +18,7 @@ pub fn shape_only(robot: &Robot) -> Option<Problem> {
     let moving: Vec<&Joint> = robot
         .joints
         .iter()
-        .filter(|j| j.kind != Kind::Fixed)
+        .filter(|j| j.kind != JointType::Fixed)
         .collect();
     if moving.is_empty() || robot.links.iter().any(|link| !is_frame(link)) {
         return None;
@@ -80,15 +80,17 @@ pub fn problem(robot: &Robot, massless: &[Massless]) -> Option<Problem> {
             ),
             "give each a mass and an inertia, or make its joint fixed",
         ),
-        (_, Some(joint)) if first.outboard == 0 && joint.kind != Kind::Floating => Problem::new(
-            place,
-            format!(
-                "{name} moves on the joint {} and has no mass: nothing says how fast",
-                quoted(&joint.name)
-            ),
-            "give the link a mass and an inertia, or make the joint fixed",
-        ),
-        (_, Some(joint)) if joint.kind != Kind::Floating => Problem::new(
+        (_, Some(joint)) if first.outboard == 0 && joint.kind != JointType::Floating => {
+            Problem::new(
+                place,
+                format!(
+                    "{name} moves on the joint {} and has no mass: nothing says how fast",
+                    quoted(&joint.name)
+                ),
+                "give the link a mass and an inertia, or make the joint fixed",
+            )
+        }
+        (_, Some(joint)) if joint.kind != JointType::Floating => Problem::new(
             place,
             format!(
                 "{name} has no mass, and carries {} joints that move",

@@ -29,11 +29,11 @@ mod xml;
 
 pub use kind::{decoded, is_xml};
 
-pub use robot::Place;
+pub use robot::TextPlace;
 pub use tree::Base;
 
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
-use robot::{Joint, Kind, LeftOut, Limits, Robot, Why};
+use robot::{Joint, JointType, LeftOut, Limits, Robot, Why};
 use std::collections::BTreeMap;
 use tree::Forest;
 
@@ -68,12 +68,12 @@ pub struct Imported {
     pub notes: Vec<String>,
     /// Lines of the model, from 1, in their order, each with the place in the URDF file of the link or joint that it comes
     /// from.
-    pub origins: Vec<(usize, Place)>,
+    pub origins: Vec<(usize, TextPlace)>,
 }
 
 impl Imported {
     /// The place in the URDF file from which a line of the model comes.
-    pub fn origin(&self, line: usize) -> Option<Place> {
+    pub fn origin(&self, line: usize) -> Option<TextPlace> {
         let origins = self.origins.iter();
         let mut same = origins.filter(|(of, _)| *of == line);
         same.next().map(|(_, place)| *place)
@@ -234,7 +234,7 @@ fn of_limits(robot: &Robot, options: &Options) -> Vec<String> {
         .joints
         .iter()
         .filter_map(|joint| Some((joint, joint.limits?)))
-        .filter(|(joint, _)| joint.kind != Kind::Fixed)
+        .filter(|(joint, _)| joint.kind != JointType::Fixed)
         .collect();
     let ends = limited
         .iter()

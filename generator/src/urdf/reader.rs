@@ -2,7 +2,7 @@
 
 use super::inertia;
 use super::known::ROBOT;
-use super::robot::{Frame, Inertial, LeftOut, Link, Mesh, Mimic, Place, Robot, Why};
+use super::robot::{Frame, Inertial, LeftOut, Link, Mesh, Mimic, Robot, TextPlace, Why};
 use super::xml::{XACRO, Xml};
 use crate::description::mesh::Solid;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
@@ -66,7 +66,7 @@ impl<'a> Reader<'a> {
         Err(Diagnostics { problems })
     }
 
-    pub fn problem(&self, place: Place, message: impl Into<String>, help: impl Into<String>) {
+    pub fn problem(&self, place: TextPlace, message: impl Into<String>, help: impl Into<String>) {
         let problem = Diagnostic::at(self.file, self.text, place, message, help);
         self.problems.borrow_mut().push(problem);
     }
@@ -288,7 +288,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The tensor, or the nearest of a body, if that differs by no more than the last digits that are written can tell.
-    fn within_digits(&self, tensor: Matrix, digits: f64, link: &str, place: Place) -> Matrix {
+    fn within_digits(&self, tensor: Matrix, digits: f64, link: &str, place: TextPlace) -> Matrix {
         if inertia::wrong_tensor(&tensor).is_none() {
             return tensor;
         }

@@ -1,7 +1,7 @@
 //! Changes of the inertia of a robot that cannot be a model as it is written, each with a sentence about it.
 
 use super::inertia::{nearest, norm, wrong_tensor};
-use super::robot::{Frame, Inertial, Kind, Robot};
+use super::robot::{Frame, Inertial, JointType, Robot};
 use super::tree::Repair;
 use crate::diagnostic::quoted;
 use crate::rotation::{IDENTITY, Matrix, add, scale};
@@ -48,7 +48,7 @@ pub fn apply(robot: &mut Robot, repair: &Repair) -> Vec<String> {
             .iter()
             .map(|&joint| {
                 let joint = &mut robot.joints[joint];
-                joint.kind = Kind::Fixed;
+                joint.kind = JointType::Fixed;
                 joint.mimic = None;
                 format!(
                     "the joint {} moves no mass: it is fixed",

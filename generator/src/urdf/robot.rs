@@ -12,12 +12,12 @@ use crate::rotation::{Matrix, Vector};
 use roxmltree::Document;
 
 /// A place in the text: line and column from 1, length.
-pub type Place = (usize, usize, usize);
+pub type TextPlace = (usize, usize, usize);
 
 /// A robot, as written in the file.
 pub struct Robot {
     pub name: String,
-    pub place: Place,
+    pub place: TextPlace,
     pub links: Vec<Link>,
     pub joints: Vec<Joint>,
     /// What is not taken over, in the order of the text.
@@ -49,7 +49,7 @@ pub enum Why {
 
 pub struct Link {
     pub name: String,
-    pub place: Place,
+    pub place: TextPlace,
     pub inertial: Option<Inertial>,
     /// By which it is shown.
     pub meshes: Vec<Mesh>,
@@ -78,11 +78,11 @@ impl Mesh {
 
 /// Mass, and inertia tensor about the centre of mass in the axes of `frame`.
 pub struct Inertial {
-    pub place: Place,
+    pub place: TextPlace,
     pub frame: Frame,
     pub mass: f64,
     pub tensor: Matrix,
-    pub tensor_place: Place,
+    pub tensor_place: TextPlace,
 }
 
 /// An `<origin>`: displacement and rotation, both zero if nothing is written.
@@ -93,7 +93,7 @@ pub struct Frame {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum JointType {
     Fixed,
     Revolute,
     Continuous,
@@ -104,8 +104,8 @@ pub enum Kind {
 
 pub struct Joint {
     pub name: String,
-    pub place: Place,
-    pub kind: Kind,
+    pub place: TextPlace,
+    pub kind: JointType,
     pub parent: usize,
     pub child: usize,
     pub origin: Frame,
@@ -144,7 +144,7 @@ pub struct Mimic {
     /// Name of the leader.
     pub leader: String,
     /// The place of that name.
-    pub place: Place,
+    pub place: TextPlace,
     pub multiplier: f64,
     /// Offset \[rad or m\].
     pub offset: f64,

@@ -5,7 +5,7 @@
 
 use super::inspect::misspelt;
 use super::reader::Reader;
-use super::robot::{Joint, Kind, Why};
+use super::robot::{Joint, JointType, Why};
 use crate::diagnostic::quoted;
 use roxmltree::Node;
 
@@ -69,8 +69,10 @@ impl<'a> Reader<'a> {
             );
         };
         match joint.kind {
-            Kind::Revolute | Kind::Continuous | Kind::Prismatic => joint.armature += armature,
-            Kind::Fixed | Kind::Planar | Kind::Floating => self.leave_out(
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic => {
+                joint.armature += armature
+            }
+            JointType::Fixed | JointType::Planar | JointType::Floating => self.leave_out(
                 node,
                 place,
                 Why::Missing,

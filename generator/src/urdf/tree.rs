@@ -8,7 +8,7 @@
 use super::coupling;
 use super::inertia::{Part, together, wrong_tensor, wrong_with};
 use super::massless::{self, Massless, shape_only};
-use super::robot::{Frame, Joint, Kind, Link, Place, Robot};
+use super::robot::{Frame, Joint, JointType, Link, Robot, TextPlace};
 use super::root::root;
 use crate::diagnostic::quoted;
 use crate::rotation::{
@@ -88,7 +88,7 @@ pub struct Forest {
 
 /// Why a robot cannot be a model.
 pub struct Problem {
-    pub place: Place,
+    pub place: TextPlace,
     pub message: String,
     pub help: String,
     /// The changes of the inertia of the robot that remove the problem; none if there are none.
@@ -110,7 +110,7 @@ pub enum Repair {
 
 impl Problem {
     /// A problem that no change of the inertia removes.
-    pub fn new(place: Place, message: impl Into<String>, help: impl Into<String>) -> Self {
+    pub fn new(place: TextPlace, message: impl Into<String>, help: impl Into<String>) -> Self {
         Problem {
             place,
             message: message.into(),
@@ -241,7 +241,7 @@ impl Builder<'_> {
         while next < held.len() {
             for &joint in &self.outboard[held[next]] {
                 let joint = &self.robot.joints[joint];
-                if joint.kind == Kind::Fixed {
+                if joint.kind == JointType::Fixed {
                     held.push(joint.child);
                 }
             }
@@ -325,7 +325,7 @@ impl Builder<'_> {
         }
         let all_follow = joints.iter().all(|&j| self.robot.joints[j].mimic.is_some());
         match outboard[..] {
-            [only] if self.robot.joints[only].kind != Kind::Floating => {
+            [only] if self.robot.joints[only].kind != JointType::Floating => {
                 joints.push(only);
                 self.body(self.robot.joints[only].child, on, joints);
             }
@@ -345,7 +345,7 @@ impl Builder<'_> {
     /// The moving joints whose parents are these links.
     fn moving(&self, held: &[usize]) -> Vec<usize> {
         let all = held.iter().flat_map(|&l| &self.outboard[l]);
-        let moving = all.filter(|&&j| self.robot.joints[j].kind != Kind::Fixed);
+        let moving = all.filter(|&&j| self.robot.joints[j].kind != JointType::Fixed);
         moving.copied().collect()
     }
 
@@ -354,8 +354,8 @@ impl Builder<'_> {
         for index in self.moving(held) {
             let joint = &self.robot.joints[index];
             match (joint.kind, on) {
-                (Kind::Floating, Carrier::Frame) => self.free(joint.child, Some(index)),
-                (Kind::Floating, Carrier::Element(..)) => self.problems.push(Problem::new(
+                (JointType::Floating, Carrier::Frame) => self.free(joint.child, Some(index)),
+                (JointType::Floating, Carrier::Element(..)) => self.problems.push(Problem::new(
                     joint.place,
                     format!("the joint {} floats, and {} moves: only what is on a base that stands still can float", quoted(&joint.name), quoted(&self.link(joint.parent).name)),
                     "describe what floats in a file of its own".to_owned(),
@@ -513,9 +513,9 @@ impl Builder<'_> {
             suffix,
         };
         match joint.kind {
-            Kind::Revolute | Kind::Continuous => vec![along(joint.axis, false, "")],
-            Kind::Prismatic => vec![along(joint.axis, true, "")],
-            Kind::Planar => {
+            JointType::Revolute | JointType::Continuous => vec![along(joint.axis, false, "")],
+            JointType::Prismatic => vec![along(joint.axis, true, "")],
+            JointType::Planar => {
                 let (first, second) = across(joint.axis);
                 vec![
                     along(first, true, "_x"),
@@ -523,7 +523,7 @@ impl Builder<'_> {
                     along(joint.axis, false, ""),
                 ]
             }
-            Kind::Fixed | Kind::Floating => Vec::new(),
+            JointType::Fixed | JointType::Floating => Vec::new(),
         }
     }
 
@@ -533,7 +533,7 @@ impl Builder<'_> {
         let turns: Vec<usize> = joints
             .iter()
             .copied()
-            .filter(|&j| robot.joints[j].kind != Kind::Prismatic)
+            .filter(|&j| robot.joints[j].kind != JointType::Prismatic)
             .collect();
         let line = |j: usize| {
             let joint = &robot.joints[j];

@@ -1,7 +1,7 @@
 //! Writes the model as YAML.
 
 use super::Options;
-use super::robot::{Joint, Kind, Limits, Mesh, Mimic, Place, Robot};
+use super::robot::{Joint, JointType, Limits, Mesh, Mimic, Robot, TextPlace};
 use super::tree::{Carried, Element, Forest, Freedom};
 use crate::model::Triangles;
 use crate::rotation::{Matrix, Vector, add, apply, bryant_angles, length, product, subtract};
@@ -126,7 +126,7 @@ fn is_limit(value: f64) -> bool {
 fn limits(joint: &Joint, are_stops: bool, is_input: bool) -> Option<String> {
     let limits = joint.limits?;
     let (unit, effort) = match joint.kind {
-        Kind::Prismatic => ("m", "N"),
+        JointType::Prismatic => ("m", "N"),
         _ => ("rad", "N·m"),
     };
     let mut parts = Vec::new();
@@ -160,7 +160,7 @@ pub fn yaml(
     forest: &Forest,
     options: &Options,
     changes: &[String],
-) -> (String, Vec<(usize, Place)>) {
+) -> (String, Vec<(usize, TextPlace)>) {
     let writer = Writer {
         robot,
         forest,
@@ -181,12 +181,12 @@ struct Writer<'a> {
     links: Names,
     joints: Names,
     name: String,
-    origins: RefCell<Vec<(usize, Place)>>,
+    origins: RefCell<Vec<(usize, TextPlace)>>,
 }
 
 impl Writer<'_> {
     /// Records that the current line of the text comes from this place.
-    fn origin(&self, text: &str, place: Place) {
+    fn origin(&self, text: &str, place: TextPlace) {
         let line = text.matches('\n').count() + 1;
         self.origins.borrow_mut().push((line, place));
     }
@@ -319,7 +319,7 @@ impl Writer<'_> {
         let joint = &self.robot.joints[freedom.joint];
         let moves = matches!(
             joint.kind,
-            Kind::Revolute | Kind::Continuous | Kind::Prismatic
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic
         );
         let follows = joint.mimic.is_some() && !options.uncouple;
         let what = if freedom.slides { "force" } else { "torque" };

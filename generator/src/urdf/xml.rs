@@ -4,7 +4,7 @@
 //! before the beginning are left out, prefixes that are not declared are declared, and `--` in comments is overwritten.
 
 use super::kind::{self, Head};
-use super::robot::Place;
+use super::robot::TextPlace;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};
 use roxmltree::{Document, Error, Node};
 use std::borrow::Cow;
@@ -109,7 +109,7 @@ impl<'a> Xml<'a> {
 
     fn problem(
         &self,
-        place: Place,
+        place: TextPlace,
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> Diagnostics {
@@ -183,7 +183,7 @@ impl<'a> Xml<'a> {
     }
 
     /// The place of a byte of the mended text.
-    fn place_at(&self, at: usize, length: usize) -> Place {
+    fn place_at(&self, at: usize, length: usize) -> TextPlace {
         let (from, added) = self.added;
         let at = match at < from {
             true => at,
@@ -198,12 +198,12 @@ impl<'a> Xml<'a> {
     }
 
     /// The place where an element begins.
-    pub fn place(&self, node: Node<'_, '_>) -> Place {
+    pub fn place(&self, node: Node<'_, '_>) -> TextPlace {
         self.place_at(node.range().start, self.tag(node).len() + 1)
     }
 
     /// The place of the value of an attribute, or of the element where it has none.
-    pub fn place_of(&self, node: Node<'_, '_>, attribute: &str) -> Place {
+    pub fn place_of(&self, node: Node<'_, '_>, attribute: &str) -> TextPlace {
         match node.attribute_node(attribute) {
             None => self.place(node),
             Some(found) => {
@@ -214,14 +214,14 @@ impl<'a> Xml<'a> {
     }
 
     /// The place of a text.
-    pub fn place_of_text(&self, node: Node<'_, '_>) -> Place {
+    pub fn place_of_text(&self, node: Node<'_, '_>) -> TextPlace {
         let text = &self.text[node.range()];
         let blank = text.len() - text.trim_start().len();
         self.place_at(node.range().start + blank, text.trim().chars().count())
     }
 
     /// The place of the name of an attribute.
-    pub fn place_of_name(&self, attribute: &roxmltree::Attribute<'_, '_>) -> Place {
+    pub fn place_of_name(&self, attribute: &roxmltree::Attribute<'_, '_>) -> TextPlace {
         let start = attribute.range().start;
         self.place_at(start, self.name(attribute).chars().count())
     }

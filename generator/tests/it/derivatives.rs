@@ -1,11 +1,12 @@
 //! Derivatives of the dynamics, in the frames of links and by differentiation of S and r_s.
 
-use crate::link::{Kind, Numbers, read, tree};
+use crate::link::{Numbers, TreeKind, read, tree};
 use bryant_generator::dynamics::augmented::AugmentedTree;
 use bryant_generator::dynamics::charts;
 use bryant_generator::dynamics::derivatives::graph::InGraph;
 use bryant_generator::dynamics::derivatives::{
-    Found, Scene, Square, acceleration_derivatives, inverse_dynamics_derivatives, linearisation,
+    DerivativeInputs, Found, Square, acceleration_derivatives, inverse_dynamics_derivatives,
+    linearisation,
 };
 use bryant_generator::dynamics::derive;
 use bryant_generator::dynamics::link::derivatives::ways;
@@ -22,7 +23,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::path::{Path, PathBuf};
 
 /// Calls a function with all that derivatives are made from.
-fn with_scene(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout)) {
+fn with_scene(model: &Model, of: &mut dyn for<'g> FnMut(&DerivativeInputs<'g, '_>, &Layout)) {
     let graph = Graph::new();
     let layout = Layout::of(model);
     let started = layout.start(&graph, model);
@@ -44,7 +45,7 @@ fn with_scene(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout)
             tree,
         })
         .collect();
-    let scene = Scene {
+    let scene = DerivativeInputs {
         graph: &graph,
         model,
         layout: &layout,
@@ -58,7 +59,7 @@ fn with_scene(model: &Model, of: &mut dyn for<'g> FnMut(&Scene<'g, '_>, &Layout)
 }
 
 /// Symbols for v̇, numbered after the parameters of the model.
-fn rates<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+fn rates<'g>(scene: &DerivativeInputs<'g, '_>) -> Vec<Expr<'g>> {
     let (graph, model) = (scene.graph, scene.model);
     let first = model.parameters.len();
     let symbol = |i: usize| graph.symbol(Symbol::Parameter((first + i) as u32));
@@ -174,7 +175,7 @@ fn link_frames_say_what_differentiation_says() {
     let (mut cases, mut all) = (0, 0);
     while cases < 40 {
         all += 1;
-        let kind = [Kind::Any, Kind::Coupled][numbers.below(2)];
+        let kind = [TreeKind::Any, TreeKind::Coupled][numbers.below(2)];
         let text = tree(&mut numbers, "quaternion", kind);
         let model = read(&text);
         with_scene(&model, &mut |scene, layout| {
@@ -222,7 +223,7 @@ fn product(a: &[f64], b: &[f64]) -> Vec<f64> {
 fn accelerations_solve_the_equations_of_their_derivatives() {
     let mut numbers = Numbers(5);
     for case in 0..24 {
-        let kind = [Kind::Any, Kind::Coupled][case % 2];
+        let kind = [TreeKind::Any, TreeKind::Coupled][case % 2];
         let coordinates = ["quaternion", "quaternion", "bryant"][case % 3];
         let text = tree(&mut numbers, coordinates, kind);
         let model = read(&text);
@@ -356,7 +357,7 @@ fn derivatives_of_robots_are_those_of_pinocchio() {
 fn the_part_of_the_velocities_is_half_symmetric_with_the_rate_of_s() {
     let mut numbers = Numbers(8);
     for _ in 0..12 {
-        let text = tree(&mut numbers, "bryant", Kind::Any);
+        let text = tree(&mut numbers, "bryant", TreeKind::Any);
         let model = read(&text);
         with_scene(&model, &mut |scene, layout| {
             let spatial = &scene.systems[0];
@@ -627,7 +628,7 @@ fn check_linearisation(model: &Model, numbers: &mut Numbers, text: &str) -> Opti
 fn linearisations_are_the_slopes_of_the_equations() {
     let mut numbers = Numbers(21);
     for case in 0..18 {
-        let kind = [Kind::Any, Kind::Coupled][case % 2];
+        let kind = [TreeKind::Any, TreeKind::Coupled][case % 2];
         let coordinates = ["quaternion", "bryant"][case % 3 / 2];
         let text = tree(&mut numbers, coordinates, kind);
         let outputs = "outputs: [{ name: p, of: s/e1, what: acceleration, component: x }]\nrun:";

@@ -11,7 +11,7 @@ use bryant_generator::dynamics;
 use bryant_generator::effect::{self, Effect, Reason, Variant};
 use bryant_generator::expression::Function;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::{Dimension, Model, Reference};
 use cases::{CASES, plane, space};
 use std::collections::BTreeSet;
@@ -53,13 +53,13 @@ fn terms(model: &Model) -> impl Iterator<Item = String> {
     forces.collect::<Vec<_>>().into_iter()
 }
 
-fn read(text: &str) -> Scene {
+fn read(text: &str) -> AnnotatedModel {
     let nothing = |_: &Path| Err(io::ErrorKind::NotFound.into());
-    bryant_generator::read_scene_str("m.yaml", text, &nothing)
+    bryant_generator::read_annotated_str("m.yaml", text, &nothing)
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
-fn source(scene: &Scene) -> String {
+fn source(scene: &AnnotatedModel) -> String {
     source_of(&scene.model)
 }
 
@@ -95,7 +95,7 @@ fn an_effect_that_is_off_leaves_no_trace() {
             continue;
         }
         // The program leaves the effect out as the user does.
-        let entries = effect::of_scene(&on);
+        let entries = effect::of_annotated_model(&on);
         let entry = entries.iter().find(|e| e.name == case.effect);
         let entry = entry.unwrap_or_else(|| panic!("{word}: {} is no effect", case.effect));
         assert!(entry.is_in, "{word}");
@@ -157,7 +157,7 @@ outputs:
   - { name: turn, of: man/torso, what: angle, enabled: false }
 ";
     let scene = read(text);
-    let entries = effect::of_scene(&scene);
+    let entries = effect::of_annotated_model(&scene);
     let found = |name: &str| {
         let mut all = entries.iter().filter(|e| e.name == name);
         let entry = all.next().unwrap_or_else(|| panic!("{name} is not listed"));
@@ -215,9 +215,9 @@ outputs:
 }
 
 /// A model of the repository.
-fn bundled(path: &str) -> Scene {
+fn bundled(path: &str) -> AnnotatedModel {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
-    bryant_generator::read_scene(&path).unwrap_or_else(|e| panic!("{e}"))
+    bryant_generator::read_annotated(&path).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// v̇ of a model at a time and a state, with the names of its entries.

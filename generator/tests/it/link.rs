@@ -94,7 +94,7 @@ fn almost_along_an_axis(numbers: &mut Numbers) -> String {
 
 /// The kind of random trees.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Kind {
+pub enum TreeKind {
     /// All joints, with hinges more often than others.
     Any,
     /// Hinges along axes, except for a small angle.
@@ -136,7 +136,7 @@ fn coupled(
 }
 
 /// A random tree with forces on some elements.
-pub fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
+pub fn tree(numbers: &mut Numbers, coordinates: &str, kind: TreeKind) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 0, 1] }"][numbers.below(3)];
     let angles = ["0.3, -0.2, 0.5", "turn, { curve: turn, times: -0.7 }, 0.5"][numbers.below(2)];
@@ -147,11 +147,11 @@ pub fn tree(numbers: &mut Numbers, coordinates: &str, kind: Kind) -> String {
     for k in 0..count {
         let mut joint = match numbers.below(2) {
             _ if k == 0 && reference == "free" => "ball".to_owned(),
-            _ if kind == Kind::Almost => almost_along_an_axis(numbers),
+            _ if kind == TreeKind::Almost => almost_along_an_axis(numbers),
             0 => JOINTS[numbers.below(5)].to_owned(),
             _ => JOINTS[numbers.below(JOINTS.len())].to_owned(),
         };
-        if kind == Kind::Coupled {
+        if kind == TreeKind::Coupled {
             joint = coupled(numbers, &joint, &mut leaders, k);
         }
         let on = match k {
@@ -273,7 +273,7 @@ struct Said {
 
 /// The largest difference between link frames and absolute axes, relative to the largest value: for random choices, for frames that a search tries,
 /// and, if `all` is true, for those that a search finds.
-fn apart(text: &str, numbers: &mut Numbers, kind: Kind, all: bool) -> Vec<(&'static str, f64)> {
+fn apart(text: &str, numbers: &mut Numbers, kind: TreeKind, all: bool) -> Vec<(&'static str, f64)> {
     let model = read(text);
     let graph = Graph::new();
     let layout = Layout::of(&model);
@@ -350,7 +350,7 @@ fn said<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
     numbers: &mut Numbers,
-    (text, kind, all): (&str, Kind, bool),
+    (text, kind, all): (&str, TreeKind, bool),
 ) -> Vec<Said> {
     let graph = spatial.graph;
     let size = spatial.layout.velocities.len();
@@ -397,7 +397,7 @@ fn said<'g>(
     };
     for way in [Way::Random, Way::Drawn, Way::Found] {
         // a search takes its time; of axes that are almost parallel it is what is tested
-        if way == Way::Found && !all && kind != Kind::Almost {
+        if way == Way::Found && !all && kind != TreeKind::Almost {
             continue;
         }
         let choice = |tree: &Tree<'g>, aim| match way {
@@ -405,7 +405,7 @@ fn said<'g>(
             Way::Drawn => drawn.clone(),
             Way::Found => search::choice(tree, aim),
         };
-        if shared::heads(&tree).is_some() {
+        if shared::elimination_links(&tree).is_some() {
             let choice = choice(&tree, Aim::Elimination);
             let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
             let name = |_: &Link<'_>| String::new();
@@ -447,7 +447,7 @@ fn said<'g>(
 }
 
 /// Compares random trees. Both ways are backward stable, and no tree here has a condition number above 1e4 or so.
-fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
+fn compare(seed: u64, count: usize, kind: TreeKind, coordinates: &[&str]) {
     let mut worst: f64 = 0.0;
     for i in share(6, 0..count) {
         let mut numbers = Numbers(
@@ -455,7 +455,7 @@ fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
                 .wrapping_mul(0x9e37_79b9_7f4a_7c15),
         );
         let text = match kind {
-            Kind::Plane => tree_in_the_plane(&mut numbers),
+            TreeKind::Plane => tree_in_the_plane(&mut numbers),
             _ => tree(&mut numbers, coordinates[i % coordinates.len()], kind),
         };
         for (what, difference) in apart(&text, &mut numbers, kind, i % 6 == 0) {
@@ -468,22 +468,22 @@ fn compare(seed: u64, count: usize, kind: Kind, coordinates: &[&str]) {
 
 #[test]
 fn trees_at_random_have_the_equations_of_absolute_axes() {
-    compare(7, 300, Kind::Any, &["quaternion", "bryant"]);
+    compare(7, 300, TreeKind::Any, &["quaternion", "bryant"]);
 }
 
 #[test]
 fn rotors_and_followers_have_the_equations_of_absolute_axes() {
-    compare(23, 150, Kind::Coupled, &["quaternion", "bryant"]);
+    compare(23, 150, TreeKind::Coupled, &["quaternion", "bryant"]);
 }
 
 #[test]
 fn trees_in_the_plane_have_the_equations_of_absolute_axes() {
-    compare(5, 200, Kind::Plane, &["quaternion"]);
+    compare(5, 200, TreeKind::Plane, &["quaternion"]);
 }
 
 #[test]
 fn axes_that_are_almost_parallel_cost_no_digits() {
-    compare(11, 200, Kind::Almost, &["quaternion"]);
+    compare(11, 200, TreeKind::Almost, &["quaternion"]);
 }
 
 /// For a chain of unlike bodies, the links that the search for frames brings into frames, trial by trial, and those whose equations it derives.

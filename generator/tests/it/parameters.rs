@@ -8,7 +8,7 @@ use std::path::Path;
 
 fn written(path: &str) -> Model {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path);
-    bryant_generator::read_scene(&path)
+    bryant_generator::read_annotated(&path)
         .expect("a valid model")
         .written
 }

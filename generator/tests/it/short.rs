@@ -19,8 +19,8 @@ fn read(text: &str, files: &Files<'_>) -> Result<(Model, String), String> {
         Some(text) => Ok((*text).to_owned()),
         None => Err(io::ErrorKind::NotFound.into()),
     };
-    let scene =
-        bryant_generator::read_scene_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
+    let scene = bryant_generator::read_annotated_str("model.yaml", text, &loader)
+        .map_err(|e| e.to_string())?;
     let (model, _) = read_str("model.yaml", text, &loader).map_err(|e| e.to_string())?;
     Ok((model, scene.long_form))
 }

@@ -4,7 +4,9 @@ use super::caught::Tried;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
 use crate::random::Random;
-use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
+use bryant_generator::description::expression::{
+    Expression, ExpressionKind, Function, Operator, parse,
+};
 
 /// The reader of quantities.
 pub const QUANTITIES: Case = Case {
@@ -241,11 +243,11 @@ fn agrees(written: &Written) -> Result<(), String> {
 
 fn value(expression: &Expression) -> f64 {
     match &expression.kind {
-        Kind::Number(value) => *value,
-        Kind::Quantity(value, unit) => value * unit.factor,
-        Kind::Parameter(_) => f64::NAN,
-        Kind::Negative(a) => -value(a),
-        Kind::Binary(operator, a, b) => {
+        ExpressionKind::Number(value) => *value,
+        ExpressionKind::Quantity(value, unit) => value * unit.factor,
+        ExpressionKind::Parameter(_) => f64::NAN,
+        ExpressionKind::Negative(a) => -value(a),
+        ExpressionKind::Binary(operator, a, b) => {
             let (a, b) = (value(a), value(b));
             match operator {
                 Operator::Add => a + b,
@@ -254,7 +256,7 @@ fn value(expression: &Expression) -> f64 {
                 Operator::Divide => a / b,
             }
         }
-        Kind::Call(function, a) => match function {
+        ExpressionKind::Call(function, a) => match function {
             Function::SquareRoot => value(a).sqrt(),
             Function::Sine => value(a).sin(),
             Function::Cosine => value(a).cos(),

@@ -4,8 +4,8 @@
 use super::caught::Tried;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
+use crate::case_model::CaseModel;
 use crate::random::Random;
-use crate::scene::Scene;
 use bryant_generator::model::{Curve, Extrapolate};
 
 /// Curves through random, mostly invalid points.
@@ -113,13 +113,13 @@ fn written(random: &mut Random) -> String {
 }
 
 /// A model with a force that follows a curve, whatever the unit of the curve.
-fn scene(curve: &str) -> Scene {
+fn scene(curve: &str) -> CaseModel {
     let force = if curve.contains("m/s^2") {
         "{ field: f, acceleration: [c, 0] }"
     } else {
         "{ load: l, on: s/e, force: [c, 0] }"
     };
-    Scene::new(
+    CaseModel::new(
         "curve",
         format!(
             "model: curve\ndimension: 2\ncurves:\n  c: {curve}\nsystems:\n  - name: s\n    elements: [{{ name: e, mass: 1, cg: \

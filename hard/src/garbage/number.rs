@@ -6,7 +6,7 @@ use super::start::{Found, Start};
 use crate::bench::{Bench, Engine, Trouble};
 use crate::case::{Case, Group};
 use crate::random::Random;
-use bryant_generator::description::tree::{Kind, Node, Source, Span};
+use bryant_generator::description::tree::{Node, NodeKind, Source, Span};
 
 /// Replaces every number in the text of valid models.
 pub const IN_THE_TEXT: Case = Case {
@@ -203,13 +203,13 @@ fn chosen(random: &mut Random, all: bool) -> Vec<&'static str> {
 /// Finds the places of numbers: scalars that begin like a number.
 fn numbers(node: &Node, places: &mut Vec<Span>) {
     match &node.kind {
-        Kind::Scalar { text, .. } => {
+        NodeKind::Scalar { text, .. } => {
             if text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)) {
                 places.push(node.span);
             }
         }
-        Kind::List(items) => items.iter().for_each(|item| numbers(item, places)),
-        Kind::Map(entries) => entries
+        NodeKind::List(items) => items.iter().for_each(|item| numbers(item, places)),
+        NodeKind::Map(entries) => entries
             .iter()
             .for_each(|entry| numbers(&entry.value, places)),
     }

@@ -2,10 +2,10 @@
 
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
+use crate::case_model::CaseModel;
 use crate::scene;
-use crate::scene::Scene;
 use bryant_runtime::program::{ErrorKind, Job, Scalar};
-use bryant_runtime::{Adaptive, Formula, Method, Pace, Tolerances};
+use bryant_runtime::{Adaptive, Formula, Integrator, Pace, Tolerances};
 
 /// Settings of runs.
 pub const SETTINGS: Case = Case {
@@ -57,7 +57,7 @@ impl Ends {
     fn run(
         &mut self,
         bench: &Bench<'_>,
-        scene: &Scene,
+        scene: &CaseModel,
         what: &str,
         job: &Job,
     ) -> Result<(), Trouble> {
@@ -121,7 +121,7 @@ fn settings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let with = |change: &dyn Fn(&mut Adaptive)| {
         let mut adaptive = Adaptive::default();
         change(&mut adaptive);
-        Some(Method {
+        Some(Integrator {
             formula: Formula::Dopri5,
             pace: Pace::Adaptive(adaptive),
         })
@@ -157,14 +157,14 @@ fn settings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
             (
                 "tolerance",
                 Job {
-                    method: Some(Method::adaptive(Formula::Dopri5, Tolerances::of(x))),
+                    method: Some(Integrator::adaptive(Formula::Dopri5, Tolerances::of(x))),
                     ..plain.clone()
                 },
             ),
             (
                 "tolerance of Rodas",
                 Job {
-                    method: Some(Method::adaptive(Formula::Rodas5, Tolerances::of(x))),
+                    method: Some(Integrator::adaptive(Formula::Rodas5, Tolerances::of(x))),
                     ..plain.clone()
                 },
             ),
@@ -209,7 +209,7 @@ fn settings(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         }
         for formula in formulas {
             let job = Job {
-                method: Some(Method::fixed(*formula, x)),
+                method: Some(Integrator::fixed(*formula, x)),
                 ..plain.clone()
             };
             ends.run(bench, &scene, &format!("step {x:e} of {formula}"), &job)?;

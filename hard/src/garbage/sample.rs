@@ -1,6 +1,6 @@
 //! Valid models to start from; together they have every kind of force, motion, switch and output.
 
-use crate::scene::Scene;
+use crate::case_model::CaseModel;
 use bryant_generator::Diagnostics;
 use bryant_generator::model::Model;
 use bryant_generator::read_str;
@@ -10,8 +10,8 @@ use std::path::Path;
 include!(concat!(env!("OUT_DIR"), "/samples.rs"));
 
 /// All models as scenes.
-pub fn scenes() -> impl Iterator<Item = Scene> {
-    ALL.iter().map(|(name, text)| Scene::new(*name, *text))
+pub fn scenes() -> impl Iterator<Item = CaseModel> {
+    ALL.iter().map(|(name, text)| CaseModel::new(*name, *text))
 }
 
 /// Reads text as a model, which may include `data/pulse.csv`.

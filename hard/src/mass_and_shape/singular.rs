@@ -3,10 +3,10 @@
 use crate::balance::Tree;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
-use crate::chain::{Kind, Link, Setting, random_state, scene};
+use crate::case_model::CaseModel;
+use crate::chain::{ChainKind, Link, Setting, random_state, scene};
 use crate::error::smallest_pivot;
 use crate::random::Random;
-use crate::scene::Scene;
 use bryant_generator::model::{Dimension, Model};
 
 /// Singular models, written by hand.
@@ -243,7 +243,7 @@ fn refused(bench: &mut Bench<'_>) -> Result<(), Trouble> {
         for element in way.elements {
             text.push_str(&format!("      - {element}\n"));
         }
-        let model = Scene::new("singular", text).model();
+        let model = CaseModel::new("singular", text).model();
         if way.said.is_empty() {
             let seen = match &model {
                 Ok(_) => "accepted".to_owned(),
@@ -273,7 +273,7 @@ fn first_line(text: &str) -> String {
 }
 
 /// A random link from few possible values, so that coincidences that make S singular are frequent.
-fn odd(random: &mut Random, kind: Kind) -> Link {
+fn odd(random: &mut Random, kind: ChainKind) -> Link {
     let mut pick = |values: &[[f64; 3]]| {
         let at = random.uniform(0.0, values.len() as f64);
         values[at as usize]
@@ -281,7 +281,7 @@ fn odd(random: &mut Random, kind: Kind) -> Link {
     let (x, z) = ([0.2, 0.0, 0.0], [0.0, 0.0, -0.3]);
     let (point, needle) = ([0.0; 3], [0.1, 0.1, 0.0]);
     let inertia = match kind {
-        Kind::Plane => pick(&[point, point, [0.1; 3]]),
+        ChainKind::Plane => pick(&[point, point, [0.1; 3]]),
         _ => pick(&[point, needle, needle, [0.1, 0.2, 0.3], [0.1; 3]]),
     };
     Link {
@@ -290,7 +290,7 @@ fn odd(random: &mut Random, kind: Kind) -> Link {
         cg: pick(&[[0.0; 3], x, z, [0.0, 0.0, -0.7]]),
         inertia,
         axes: match kind {
-            Kind::Plane => [0.0; 3],
+            ChainKind::Plane => [0.0; 3],
             _ => pick(&[[0.0; 3], [0.0; 3], [0.4, 0.3, 0.2]]),
         },
     }
@@ -301,7 +301,7 @@ const ZERO: f64 = 1e-20;
 
 fn random(bench: &mut Bench<'_>) -> Result<(), Trouble> {
     let trials = if bench.full() { 5000 } else { 300 };
-    for kind in [Kind::Plane, Kind::Quaternion] {
+    for kind in [ChainKind::Plane, ChainKind::Quaternion] {
         bench.variant(format!("{}, chains of 1 … 4 elements", kind.name()));
         let (mut singular, mut wrong) = (0u64, Vec::new());
         for trial in 0..trials {

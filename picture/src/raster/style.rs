@@ -96,9 +96,9 @@ fn colour(text: &str) -> Option<Option<Colour>> {
 }
 
 /// The rules of a style sheet, in increasing order of precedence.
-pub struct Rules<'a>(Vec<Rule<'a>>);
+pub struct Rules<'a>(Vec<StyleRule<'a>>);
 
-struct Rule<'a> {
+struct StyleRule<'a> {
     /// The element that the rule selects; "" for any.
     element: &'a str,
     classes: Vec<&'a str>,
@@ -129,7 +129,7 @@ impl<'a> Rules<'a> {
                     return Err(unknown(selector));
                 }
                 let mut words = selector.split('.');
-                rules.push(Rule {
+                rules.push(StyleRule {
                     element: words.next().unwrap_or_default(),
                     classes: words.collect(),
                     declarations: declarations.clone(),
@@ -159,10 +159,10 @@ impl<'a> Rules<'a> {
 
     fn of(&self, element: &str, classes: &str) -> impl Iterator<Item = (&'a str, &'a str)> {
         let has = |class: &&str| classes.split(' ').any(|own| own == *class);
-        let fits = |rule: &&Rule<'a>| {
+        let fits = |rule: &&StyleRule<'a>| {
             (rule.element.is_empty() || rule.element == element) && rule.classes.iter().all(has)
         };
-        let rules: Vec<&Rule<'a>> = self.0.iter().filter(fits).collect();
+        let rules: Vec<&StyleRule<'a>> = self.0.iter().filter(fits).collect();
         let declarations = rules.into_iter().flat_map(|rule| rule.declarations.clone());
         declarations.collect::<Vec<_>>().into_iter()
     }

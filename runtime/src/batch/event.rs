@@ -4,7 +4,7 @@
 use super::step::Step;
 use crate::real::{Mask, Several};
 use crate::simulate::excursion::Excursion;
-use crate::simulate::{Bracket, Course, WIDTH, Zero, change, opposite};
+use crate::simulate::{Bracket, StepValues, WIDTH, Zero, change, opposite};
 use crate::{Dynamics, Real};
 
 /// The accuracy of an event's place, as a fraction of the step: never finer than the resolution of the scalar.
@@ -345,7 +345,7 @@ pub fn hidden<T: Several>(
     let mut result = never;
     for (i, values) in values.iter().enumerate() {
         let before = values[0].part(0);
-        let mut course = Course([never; 5]);
+        let mut course = StepValues([never; 5]);
         for (value, place) in course.0.iter_mut().zip(values) {
             *value = opposite(zero, before, place.part(0));
         }

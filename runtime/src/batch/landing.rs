@@ -3,7 +3,7 @@
 
 use super::control::norm;
 use super::event::{Sides, width};
-use super::onset::END;
+use super::onset::END_OF_STEP;
 use super::reach::Reach;
 use super::run::{Run, each, replace};
 use crate::real::{Mask, Several, mapped};
@@ -263,7 +263,7 @@ impl<T: Several> Run<'_, T> {
             &self.state,
             &mut [
                 (Section::EventFunctions, &mut self.event_functions_ahead),
-                (Section::Onsets, &mut self.onsets.values[END]),
+                (Section::Onsets, &mut self.onsets.values[END_OF_STEP]),
                 (Section::Renewed, &mut self.renewed[..memory]),
             ],
         );

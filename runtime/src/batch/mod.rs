@@ -54,7 +54,7 @@ mod watch;
 pub use models::{with_compiled, with_compiled_singles};
 pub use run::{STEPS_BETWEEN, run};
 pub use scenario::{Doubt, Ended, Scenarios, Series, Status};
-pub use settings::{Fixed, Method, Pace, Settings};
+pub use settings::{Fixed, LaneFormula, Pace, Settings};
 
 /// A slice with `count` copies of a value. This is a function of its own because a batch has dozens of such slices:
 /// inlined, they would be a seventh of the machine code of this crate.

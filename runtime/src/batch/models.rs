@@ -84,7 +84,7 @@ mod registers {
 
     /// Whether this processor has the narrow registers.
     pub fn narrow_is_there() -> bool {
-        Width::Four.there()
+        Width::Four.is_available()
     }
 }
 
@@ -183,7 +183,7 @@ pub(super) fn with_models<N: Numbers, W: OfModels<N::One>>(
     source: &dyn Source<N>,
     task: W,
 ) -> Option<W::Output> {
-    width.there().then(|| match width {
+    width.is_available().then(|| match width {
         Width::One if !registers::narrow_is_there() => task.run(source.one_lane()),
         Width::One | Width::Two | Width::Four => task.run(source.narrow()),
         Width::Eight => task.run(source.wide()),
@@ -204,7 +204,7 @@ pub fn with_compiled_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Optio
 }
 
 fn with_numbers<N: Numbers, W: OfAnyWidth<N::One>>(width: Width, task: W) -> Option<W::Output> {
-    width.there().then(|| match width {
+    width.is_available().then(|| match width {
         Width::One if !registers::narrow_is_there() => task.run::<N::OneLane>(),
         Width::One | Width::Two | Width::Four => task.run::<N::Narrow>(),
         Width::Eight => task.run::<N::Wide>(),

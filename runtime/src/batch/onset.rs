@@ -15,7 +15,8 @@ use crate::{Info, Real};
 /// start of the previous step.
 const PLACES: usize = QUARTERS + 3;
 const MIDDLE: usize = QUARTERS / 2;
-pub(super) const END: usize = QUARTERS;
+/// The place at the end of the step.
+pub(super) const END_OF_STEP: usize = QUARTERS;
 const ANY: usize = QUARTERS + 1;
 const PAST: usize = QUARTERS + 2;
 
@@ -177,7 +178,7 @@ impl<T: Several> Run<'_, T> {
         let lanes = over.lanes();
         for i in each(lanes).take_while(|i| *i < T::LANES) {
             let side = self.onsets.found[i];
-            let gaps = mapped([0, END], |place| self.onsets.gap_in(i, place, side));
+            let gaps = mapped([0, END_OF_STEP], |place| self.onsets.gap_in(i, place, side));
             let corner = side >= self.onsets.count() - self.onsets.corners;
             visits[i] = Visit::new(found.lane(i).to_f64(), gaps, corner);
         }
@@ -232,7 +233,7 @@ impl<T: Several> Run<'_, T> {
         let onsets = &self.onsets;
         let corner = usize::from(side >= onsets.count() - onsets.corners);
         let finest = finest_gaps(T::EPSILON > 1e-10)[corner];
-        limit([onsets.gap(0, side), onsets.gap(END, side)], finest)
+        limit([onsets.gap(0, side), onsets.gap(END_OF_STEP, side)], finest)
     }
 
     /// The lanes whose steps are no longer than the time between samples.
@@ -251,8 +252,8 @@ impl<T: Several> Run<'_, T> {
         let onsets = &self.onsets;
         let mut quiet = self.short();
         for side in 0..onsets.sides() {
-            let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
-            let (speed, limit) = (onsets.speed([0, END], side), self.limit(side));
+            let (a, b) = (onsets.gap(0, side), onsets.gap(END_OF_STEP, side));
+            let (speed, limit) = (onsets.speed([0, END_OF_STEP], side), self.limit(side));
             let gaps = [onsets.gap(PAST, side), a, b];
             let straight = straight(gaps, speed, [self.past, length], limit).and(known);
             quiet = quiet.and(far([a, b], speed, length, limit).or(straight));
@@ -268,9 +269,9 @@ impl<T: Several> Run<'_, T> {
         let onsets = &self.onsets;
         let mut quiet = self.short();
         for side in 0..onsets.sides() {
-            let (a, b) = (onsets.gap(0, side), onsets.gap(END, side));
+            let (a, b) = (onsets.gap(0, side), onsets.gap(END_OF_STEP, side));
             let speed = onsets.speed([0, MIDDLE], side);
-            let speed = speed.max(onsets.speed([MIDDLE, END], side));
+            let speed = speed.max(onsets.speed([MIDDLE, END_OF_STEP], side));
             let (past, middle) = (onsets.gap(PAST, side), onsets.gap(MIDDLE, side));
             let (gaps, lengths) = ([past, a, middle, b], [self.past, length]);
             quiet = quiet.and(calm(gaps, speed, lengths, known, self.limit(side)));

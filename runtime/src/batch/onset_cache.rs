@@ -9,7 +9,7 @@ use super::place::Places;
 use crate::Real;
 use crate::real::Several;
 use crate::real::lanes::MOST_LANES;
-use crate::simulate::onset::{Course, Hunt, QUARTERS, onset_of};
+use crate::simulate::onset::{GapCourse, Hunt, QUARTERS, onset_of};
 
 /// Number of evaluations that are remembered. One evaluation ("look") covers the places packed into one register.
 const KEPT: usize = 8;
@@ -105,7 +105,7 @@ impl OnsetCache {
     }
 
     /// The known gaps and the speed of a side in a lane.
-    fn course(&self, side: usize, lane: usize) -> Course {
+    fn course(&self, side: usize, lane: usize) -> GapCourse {
         let (onset, far) = onset_of(side, self.onsets, self.corners);
         let (mut gaps, mut speed) = ([0.0; QUARTERS + 1], 0.0_f64);
         for (gap, values) in gaps.iter_mut().zip(&self.quarters) {
@@ -113,7 +113,7 @@ impl OnsetCache {
             *gap = if far { -value } else { value };
             speed = speed.max(values[self.onsets + onset][lane]);
         }
-        Course { gaps, speed }
+        GapCourse { gaps, speed }
     }
 
     /// Continues the search in a lane as far as the values it asks for are known. True if the search has ended; else
@@ -154,7 +154,7 @@ mod tests {
     use crate::Several;
     use crate::real::by_index;
     use crate::real::lanes::{MOST_LANES, OfAnyWidth, Width, with_width};
-    use crate::simulate::onset::{Course, Hunt, finest_gaps, onset_of, sides};
+    use crate::simulate::onset::{GapCourse, Hunt, finest_gaps, onset_of, sides};
 
     const ONSETS: usize = 5;
     const CORNERS: usize = 2;
@@ -203,7 +203,7 @@ mod tests {
             if far { -gap } else { gap }
         };
         let mut asked = 0;
-        while let Some(theta) = hunt.next(|side| Course {
+        while let Some(theta) = hunt.next(|side| GapCourse {
             gaps: std::array::from_fn(|k| sided(side, k as f64 / QUARTERS as f64)),
             speed: gaps[onset_of(side, ONSETS, CORNERS).0].speed(),
         }) {

@@ -106,7 +106,7 @@ pub struct NoSuchRegisters(pub Width);
 
 impl core::fmt::Display for NoSuchRegisters {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let widths = Width::ALL.into_iter().filter(|width| width.there());
+        let widths = Width::ALL.into_iter().filter(|width| width.is_available());
         let there: Vec<&str> = widths.map(Width::name).collect();
         let there = there.join(", ");
         write!(
@@ -634,10 +634,10 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
     fn level(&self, scenario: usize) -> f64 {
         let (row, turn) = self.which(scenario);
         match (turn, self.job.settings.pace) {
-            (Turn::First, _) => 1.0,
-            (Turn::Coarser, Pace::Adaptive(_)) => COARSER,
-            (Turn::Coarser, Pace::Fixed(_)) => LONGER,
-            (Turn::Sharper, _) => whole_power(SHARPER, self.sharpened[row] + 1),
+            (RunKind::First, _) => 1.0,
+            (RunKind::Coarser, Pace::Adaptive(_)) => COARSER,
+            (RunKind::Coarser, Pace::Fixed(_)) => LONGER,
+            (RunKind::Sharper, _) => whole_power(SHARPER, self.sharpened[row] + 1),
         }
     }
 
@@ -645,7 +645,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
     /// and if it is too large, the sharper runs that follow control accelerations.
     fn controls_accelerations(&self, scenario: usize) -> bool {
         let (_, turn) = self.which(scenario);
-        turn == Turn::Sharper || !self.job.estimate
+        turn == RunKind::Sharper || !self.job.estimate
     }
 
     fn outputs(&self) -> &[usize] {
@@ -660,7 +660,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
 
     fn gives_up(&self, scenario: usize, steps: u64) -> bool {
         let (row, turn) = self.which(scenario);
-        let before = self.ended[row].filter(|_| turn != Turn::First);
+        let before = self.ended[row].filter(|_| turn != RunKind::First);
         before.is_some_and(|before| {
             let taken = u64::from(before.steps) + u64::from(before.rejected);
             steps > PATIENCE * taken
@@ -671,7 +671,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
         if let Some(hear) = self.hear {
             let (row, turn) = self.which(scenario);
             // report only one of the two runs that are computed side by side
-            if turn == Turn::Coarser && self.ended[row].is_none() {
+            if turn == RunKind::Coarser && self.ended[row].is_none() {
                 return;
             }
             hear(Lingers { row, seconds, t });
@@ -685,9 +685,9 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
             self.kept = samples.map(|sample| sample.to_f64()).collect();
         }
         // a coarser run with fixed steps serves the comparison only, whether it is doubtful or not
-        let coarse = turn == Turn::Coarser && matches!(self.job.settings.pace, Pace::Fixed(_));
+        let coarse = turn == RunKind::Coarser && matches!(self.job.settings.pace, Pace::Fixed(_));
         let done = ended.status == Status::Done || coarse && ended.status == Status::Doubtful;
-        if turn == Turn::Sharper && !done {
+        if turn == RunKind::Sharper && !done {
             self.pairs[row] = [None, None];
             // earlier results stay, unless the sharper run shows that the row cannot be trusted
             if ended.status == Status::Doubtful {
@@ -703,7 +703,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
             true => self.reduced(series),
             false => self.nothing(),
         };
-        if turn != Turn::Coarser {
+        if turn != RunKind::Coarser {
             self.ended[row] = Some(*ended);
             let start = row * responses.len();
             self.responses[start..start + responses.len()].copy_from_slice(&responses);
@@ -716,7 +716,7 @@ impl<S: Real> Scenarios<S> for Table<'_, S> {
 
 /// The kind of a run of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Turn {
+enum RunKind {
     /// The run with the settings asked for.
     First,
     /// The run at ten times the tolerances, or with steps twice as long.
@@ -727,25 +727,25 @@ enum Turn {
 
 impl<S: Real> Table<'_, S> {
     /// The row of a scenario, and the kind of the run.
-    fn which(&self, scenario: usize) -> (usize, Turn) {
+    fn which(&self, scenario: usize) -> (usize, RunKind) {
         let rows = self.ended.len();
         match self.job.estimate {
-            false => (scenario, Turn::First),
+            false => (scenario, RunKind::First),
             true if scenario < 2 * rows => match scenario.is_multiple_of(2) {
-                true => (scenario / 2, Turn::First),
-                false => (scenario / 2, Turn::Coarser),
+                true => (scenario / 2, RunKind::First),
+                false => (scenario / 2, RunKind::Coarser),
             },
-            true => (self.again[scenario - 2 * rows], Turn::Sharper),
+            true => (self.again[scenario - 2 * rows], RunKind::Sharper),
         }
     }
 
     /// Takes the answers of a run of a row, and estimates the error once there are two runs.
-    fn estimate(&mut self, row: usize, turn: Turn, judged: Judged) {
+    fn estimate(&mut self, row: usize, turn: RunKind, judged: Judged) {
         let pair = &mut self.pairs[row];
         match turn {
-            Turn::First => pair[0] = Some(judged),
-            Turn::Coarser => pair[1] = Some(judged),
-            Turn::Sharper => *pair = [Some(judged), pair[0].take()],
+            RunKind::First => pair[0] = Some(judged),
+            RunKind::Coarser => pair[1] = Some(judged),
+            RunKind::Sharper => *pair = [Some(judged), pair[0].take()],
         }
         let [Some(fine), Some(coarse)] = pair else {
             return;
@@ -760,7 +760,7 @@ impl<S: Real> Table<'_, S> {
         let error = error_of(largest(&apart));
         self.errors[row] = error;
         pair[1] = None;
-        self.sharpened[row] += u32::from(turn == Turn::Sharper);
+        self.sharpened[row] += u32::from(turn == RunKind::Sharper);
         let wanted = self.job.wanted;
         // an unknown difference counts as helping, and as not good enough
         let [_, twice_before] = &self.before[row];

@@ -20,7 +20,7 @@ use super::control::{ESTIMATE, Power, first_step};
 use super::event::Values;
 use super::jump::Sided;
 use super::models::Models;
-use super::onset::{END, Onsets};
+use super::onset::{END_OF_STEP, Onsets};
 use super::place::Places;
 use super::reach::Grid;
 use super::scenario::{Doubt, Ended, Scenarios, Series, Status};
@@ -465,7 +465,7 @@ impl<'a, T: Several> Run<'a, T> {
             &self.step.y,
             &mut [
                 (Section::EventFunctions, &mut self.event_functions_ahead),
-                (Section::Onsets, &mut self.onsets.values[END]),
+                (Section::Onsets, &mut self.onsets.values[END_OF_STEP]),
                 (Section::Renewed, &mut self.renewed[..memory]),
             ],
         );
@@ -484,7 +484,7 @@ impl<'a, T: Several> Run<'a, T> {
             &self.end,
             &mut [
                 (Section::EventFunctions, &mut self.event_functions_ahead),
-                (Section::Onsets, &mut self.onsets.values[END]),
+                (Section::Onsets, &mut self.onsets.values[END_OF_STEP]),
                 (Section::Renewed, &mut self.renewed[..memory]),
                 (Section::Curves, &mut self.bends.arguments),
             ],

@@ -37,15 +37,15 @@ pub enum Pace {
 /// Steps of one length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fixed {
-    /// The method.
-    pub method: Method,
+    /// The formula of a step.
+    pub method: LaneFormula,
     /// Largest length \[s\]: steps are shortened evenly so that they end on kinks in time. Samples lie within steps.
     pub step: f64,
 }
 
-/// The methods for the steps of lanes: explicit ones with at most seven stages.
+/// The formulas for the steps of lanes: explicit ones with at most seven stages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum LaneFormula {
     /// [`Formula::Heun`]
     Heun,
     /// [`Formula::Rk4`]
@@ -56,38 +56,43 @@ pub enum Method {
     Dopri5,
 }
 
-impl Method {
+impl LaneFormula {
     /// All of them, by order.
-    pub const ALL: [Method; 4] = [Method::Heun, Method::Rk4, Method::Merson, Method::Dopri5];
+    pub const ALL: [LaneFormula; 4] = [
+        LaneFormula::Heun,
+        LaneFormula::Rk4,
+        LaneFormula::Merson,
+        LaneFormula::Dopri5,
+    ];
 
-    /// The same method in single runs.
+    /// The same formula in single runs.
     pub const fn formula(self) -> Formula {
         match self {
-            Method::Heun => Formula::Heun,
-            Method::Rk4 => Formula::Rk4,
-            Method::Merson => Formula::Merson,
-            Method::Dopri5 => Formula::Dopri5,
+            LaneFormula::Heun => Formula::Heun,
+            LaneFormula::Rk4 => Formula::Rk4,
+            LaneFormula::Merson => Formula::Merson,
+            LaneFormula::Dopri5 => Formula::Dopri5,
         }
     }
 
-    /// The method of this name.
-    pub fn named(name: &str) -> Option<Method> {
+    /// The formula of this name.
+    pub fn named(name: &str) -> Option<LaneFormula> {
         let mut all = Self::ALL.into_iter();
         all.find(|method| method.formula().name() == name)
     }
 
     /// Whether the derivative at the end of a step is its last stage.
     pub(super) const fn ends_with_its_rate(self) -> bool {
-        matches!(self, Method::Dopri5)
+        matches!(self, LaneFormula::Dopri5)
     }
 }
 
 impl Pace {
-    /// The method of its steps.
-    pub const fn method(&self) -> Method {
+    /// The formula of its steps.
+    pub const fn method(&self) -> LaneFormula {
         match self {
             Pace::Fixed(fixed) => fixed.method,
-            Pace::Adaptive(_) => Method::Dopri5,
+            Pace::Adaptive(_) => LaneFormula::Dopri5,
         }
     }
 }

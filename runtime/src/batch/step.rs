@@ -6,7 +6,7 @@
 //!
 //! Stages and sums are separate functions, each compiled for the coefficients of one method.
 
-use super::settings::Method;
+use super::settings::LaneFormula;
 use super::tolerance::Allowed;
 use super::{arrays, copies};
 use crate::integrate::acceleration::{EndDifference, kind};
@@ -23,7 +23,7 @@ const STAGES: usize = 7;
 /// A step in every lane: its start, its length and its stages. All states have the same length.
 pub struct Step<T> {
     /// The method.
-    method: Method,
+    method: LaneFormula,
     /// Start of the step \[s\].
     pub t: T,
     /// Length of the step \[s\].
@@ -47,19 +47,19 @@ pub struct Step<T> {
 macro_rules! by_tableau {
     ($method:expr, $tableau:ident => $result:expr) => {
         match $method {
-            Method::Heun => {
+            LaneFormula::Heun => {
                 type $tableau = Heun;
                 $result
             }
-            Method::Rk4 => {
+            LaneFormula::Rk4 => {
                 type $tableau = Rk4;
                 $result
             }
-            Method::Merson => {
+            LaneFormula::Merson => {
                 type $tableau = Merson;
                 $result
             }
-            Method::Dopri5 => {
+            LaneFormula::Dopri5 => {
                 type $tableau = Dopri5;
                 $result
             }
@@ -69,7 +69,7 @@ macro_rules! by_tableau {
 
 impl<T: Several> Step<T> {
     /// A step at time 0 from a state of zeros with this number of entries.
-    pub fn new(method: Method, entries: usize) -> Self {
+    pub fn new(method: LaneFormula, entries: usize) -> Self {
         let nought = T::from_f64(0.0);
         let zeros = || copies(nought, entries);
         Step {

@@ -3,12 +3,12 @@
 //! cost nothing here: they have that control, and the estimate of their error.
 
 use super::run::{Run, Work, each, replace};
-use super::settings::{Fixed, Method, Pace};
+use super::settings::{Fixed, LaneFormula, Pace};
 use super::step::Step;
 use super::{arrays, copies};
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, mapped};
-use crate::simulate::balance::{NODES, Rule, exchange};
+use crate::simulate::balance::{NODES, Quadrature, exchange};
 use crate::simulate::watch::account::{
     Account, Energies, Entry, Stability, Unstable, rate_squared,
 };
@@ -16,7 +16,7 @@ use crate::simulate::watch::error::{Errors, Estimated, over_halves};
 use crate::{Info, Real, StateKind};
 
 /// The quadrature of powers; fixed steps may be arbitrarily long.
-const RULE: Rule = Rule::Five;
+const RULE: Quadrature = Quadrature::Degree5;
 const LAST: usize = NODES - 1;
 
 /// A number for each lane.
@@ -58,7 +58,7 @@ const ANY: usize = NODES;
 
 impl<T: Several> Watch<T> {
     /// A watch for a model, with the share of energy and momentum that may be missing.
-    fn new(info: &Info, method: Method, limit: f64) -> Self {
+    fn new(info: &Info, method: LaneFormula, limit: f64) -> Self {
         let zeros = |length: usize| copies(T::from_f64(0.0), length);
         let entries = info.state_length();
         Watch {

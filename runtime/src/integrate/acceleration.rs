@@ -120,7 +120,7 @@ impl<P: Number> EndDifference<P> {
 
     /// (h|λ|)⁴ of a step of length `h`; 0 where the results differ by rounding alone.
     #[inline(always)]
-    pub fn reach(&self, h: P, epsilon: f64) -> P {
+    pub fn h_lambda_fourth(&self, h: P, epsilon: f64) -> P {
         let c = P::from_f64;
         let least = c(ROUNDINGS * ROUNDINGS * epsilon * epsilon);
         let mut product = (h * h) * (h * h);
@@ -153,7 +153,7 @@ impl Fastest {
 
     /// (h|λ|)⁴ of a step of length `h`, with |λ|² = ‖D_q‖‖D_v‖/(‖d_q‖‖d_v‖), or |λ| = ‖D‖/‖d‖ of states of laws,
     /// whichever is more; 0 where the results differ by rounding alone.
-    pub fn reach(&self, h: f64) -> f64 {
+    pub fn h_lambda_fourth(&self, h: f64) -> f64 {
         let [coordinates, velocities, laws] = self.0.map(|[apart, rates]| {
             let squared = h * h * rates / apart;
             if squared.is_finite() { squared } else { 0.0 }
@@ -232,8 +232,8 @@ impl<P: Number> Accelerations<P> {
             return c(0.0);
         };
         let fourth = c(limit * limit * limit * limit);
-        let reach = difference.reach(h, epsilon);
-        let rate_squared = R::root(reach, [2, 1]) / (h * h);
+        let h_lambda_fourth = difference.h_lambda_fourth(h, epsilon);
+        let rate_squared = R::root(h_lambda_fourth, [2, 1]) / (h * h);
         let rounding =
             c(RESOLVED * epsilon) * rate_squared * R::root(difference.sums[0][2], [2, 1]);
         let allowed = c(polynomial * self.share) * level;
@@ -250,7 +250,7 @@ impl<P: Number> Accelerations<P> {
             let resolved = rounding.lt(allowed * largest).or(unknown);
             share_squared = share_squared.max(P::select(resolved, of_kind, c(0.0)));
         }
-        let power = reach / fourth;
+        let power = h_lambda_fourth / fourth;
         let share = R::root(share_squared, [2, 1]);
         let x = share * (power * power) / allowed;
         self.x = P::select(x.lt(c(f64::INFINITY)), x, c(0.0));

@@ -34,7 +34,7 @@ pub(crate) mod workspace;
 mod order;
 
 use crate::failure::Reason;
-use crate::simulate::Method;
+use crate::simulate::Integrator;
 use crate::{Dynamics, Info, Model, Real, Task, Vector};
 pub use adams::march_adams;
 use core::fmt;
@@ -44,8 +44,8 @@ use explicit::Explicit;
 pub use march::{Coefficients, DOP853};
 pub use march::{march, march_dop853};
 use rosenbrock::Rosenbrock;
+pub(crate) use switching::FormulaChange;
 use switching::Switching;
-pub(crate) use switching::Turn;
 use tableau::dormand_prince::{Dop853, Dopri5};
 use tableau::hermite;
 use tableau::kutta::{Heun, Merson, Rk4};
@@ -227,9 +227,14 @@ pub(crate) trait Stepper<T: Real> {
     fn noise(&self, _noise: &mut [T]) -> f64 {
         0.0
     }
-    /// Notes an accepted step of this length, which follows this many rejected tries; `reach` is (h|λ|)⁴ of an explicit
-    /// step. Returns `Some` if the next step uses another formula. The change takes effect with [`Stepper::begin`].
-    fn turn(&mut self, _length: f64, _rejected: u64, _reach: f64) -> Option<Turn> {
+    /// Notes an accepted step of this length, which follows this many rejected tries; `h_lambda_fourth` is (h|λ|)⁴ of
+    /// an explicit step. Returns `Some` if the next step uses another formula. The change takes effect with [`Stepper::begin`].
+    fn turn(
+        &mut self,
+        _length: f64,
+        _rejected: u64,
+        _h_lambda_fourth: f64,
+    ) -> Option<FormulaChange> {
         None
     }
 }
@@ -277,7 +282,7 @@ impl<'w, T: Real> Span<'w, T> {
 }
 
 /// Number of scalars of workspace that a step of a method needs for this model.
-pub(crate) const fn step_length(method: &Method, info: &Info) -> usize {
+pub(crate) const fn step_length(method: &Integrator, info: &Info) -> usize {
     let state = info.state_length();
     let more = match method.switches() {
         true => Switching::<()>::more(state),
@@ -311,7 +316,7 @@ pub(crate) enum AnyStepper<'w, T> {
 
 impl<'w, T: Real> AnyStepper<'w, T> {
     /// A step of a method for this model that has not begun.
-    pub fn new(method: &Method, info: &Info<'_>, workspace: &mut Workspace<'w, T>) -> Self {
+    pub fn new(method: &Integrator, info: &Info<'_>, workspace: &mut Workspace<'w, T>) -> Self {
         match method.switches() {
             true => AnyStepper::Switching(Switching::new(method.formula, info, workspace)),
             false => AnyStepper::by(method.formula, info, workspace),

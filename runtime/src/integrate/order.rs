@@ -105,7 +105,7 @@ fn misses(nodes: usize, b: &[f64], single: &Matrix, several: &Matrix) -> f64 {
 }
 
 /// What a tableau says, without its type, so that checks are compiled once for all.
-struct Method {
+struct ErasedTableau {
     stages: usize,
     all: usize,
     c: &'static [f64],
@@ -119,9 +119,9 @@ struct Method {
     counts: fn(usize) -> bool,
 }
 
-impl Method {
+impl ErasedTableau {
     fn of<B: Tableau>() -> Self {
-        Method {
+        ErasedTableau {
             stages: B::STAGES,
             all: B::ALL,
             c: B::C,
@@ -138,7 +138,7 @@ impl Method {
 }
 
 /// The coefficients of all stages as a square matrix.
-fn matrix(m: &Method) -> Matrix {
+fn matrix(m: &ErasedTableau) -> Matrix {
     let mut rows = vec![vec![0.0; m.all]; m.all];
     for (row, a) in rows.iter_mut().zip(m.a) {
         row[..a.len()].copy_from_slice(a);
@@ -146,7 +146,7 @@ fn matrix(m: &Method) -> Matrix {
     rows
 }
 
-fn padded(m: &Method, weights: &[f64]) -> Vec<f64> {
+fn padded(m: &ErasedTableau, weights: &[f64]) -> Vec<f64> {
     let mut all = vec![0.0; m.all];
     all[..weights.len()].copy_from_slice(weights);
     all
@@ -154,7 +154,7 @@ fn padded(m: &Method, weights: &[f64]) -> Vec<f64> {
 
 /// Checks the nodes and the orders of the result, the embedded result and the interpolant, and that these orders are not
 /// higher.
-fn check(m: &Method, order: usize) {
+fn check(m: &ErasedTableau, order: usize) {
     let a = matrix(m);
     for (i, c) in m.c.iter().enumerate() {
         let sum: f64 = a[i].iter().sum();
@@ -217,20 +217,20 @@ fn trees_are_as_many_as_they_are() {
 
 #[test]
 fn historical_methods_have_their_orders() {
-    check(&Method::of::<Heun>(), 2);
-    check(&Method::of::<Rk4>(), 4);
-    check(&Method::of::<Merson>(), 4);
+    check(&ErasedTableau::of::<Heun>(), 2);
+    check(&ErasedTableau::of::<Rk4>(), 4);
+    check(&ErasedTableau::of::<Merson>(), 4);
 }
 
 #[test]
 fn pairs_of_order_5_have_their_orders() {
-    check(&Method::of::<Dopri5>(), 5);
-    check(&Method::of::<Tsit5>(), 5);
+    check(&ErasedTableau::of::<Dopri5>(), 5);
+    check(&ErasedTableau::of::<Tsit5>(), 5);
 }
 
 #[test]
 fn the_method_of_order_8_has_its_orders() {
-    check(&Method::of::<Dop853>(), 8);
+    check(&ErasedTableau::of::<Dop853>(), 8);
 }
 
 #[test]
@@ -262,7 +262,7 @@ fn the_rosenbrock_method_has_its_orders() {
 }
 
 /// The farthest point of |R(z)| = 1 in the left half plane, R(z) = 1 + z bᵀ (1 − z A)⁻¹ 1 = 1 + Σ z^(k+1) bᵀ A^k 1.
-fn farthest(m: &Method) -> f64 {
+fn farthest(m: &ErasedTableau) -> f64 {
     let (a, mut stages) = (matrix(m), vec![1.0; m.all]);
     let b = padded(m, m.b);
     let mut polynomial = vec![1.0];
@@ -307,17 +307,17 @@ fn limits_of_stability_are_those_of_the_polynomials() {
             "{formula}: {found}"
         );
     };
-    close(farthest(&Method::of::<Heun>()), Formula::Heun);
-    close(farthest(&Method::of::<Rk4>()), Formula::Rk4);
-    close(farthest(&Method::of::<Merson>()), Formula::Merson);
-    close(farthest(&Method::of::<Dopri5>()), Formula::Dopri5);
-    close(farthest(&Method::of::<Tsit5>()), Formula::Tsit5);
-    close(farthest(&Method::of::<Dop853>()), Formula::Dop853);
+    close(farthest(&ErasedTableau::of::<Heun>()), Formula::Heun);
+    close(farthest(&ErasedTableau::of::<Rk4>()), Formula::Rk4);
+    close(farthest(&ErasedTableau::of::<Merson>()), Formula::Merson);
+    close(farthest(&ErasedTableau::of::<Dopri5>()), Formula::Dopri5);
+    close(farthest(&ErasedTableau::of::<Tsit5>()), Formula::Tsit5);
+    close(farthest(&ErasedTableau::of::<Dop853>()), Formula::Dop853);
 }
 
 /// (|R(iy)|, |P(iy)|) of an undamped oscillation: what a step makes of it, and how far the last state before the end for the time of the end is from
 /// the end.
-fn swings(m: &Method, y: f64) -> [f64; 2] {
+fn swings(m: &ErasedTableau, y: f64) -> [f64; 2] {
     let times = |(re, im): (f64, f64)| (-y * im, y * re);
     let mut rates: Vec<(f64, f64)> = Vec::new();
     let state = |rates: &[(f64, f64)], weights: &[f64]| {
@@ -341,7 +341,7 @@ fn swings(m: &Method, y: f64) -> [f64; 2] {
 
 #[test]
 fn oscillations_grow_from_the_limits_stated() {
-    fn compare(m: &Method, formula: Formula) {
+    fn compare(m: &ErasedTableau, formula: Formula) {
         let [limit, polynomial] = limits(formula).expect("a method with two stages at the end");
         let mut places = (1..100_000).map(|i| 1e-4 * f64::from(i));
         let found = places.find(|y| swings(m, *y)[0] > 1.0 + 1e-5);
@@ -355,11 +355,11 @@ fn oscillations_grow_from_the_limits_stated() {
             "{formula}: {polynomial}, found {apart}"
         );
     }
-    compare(&Method::of::<Heun>(), Formula::Heun);
-    compare(&Method::of::<Merson>(), Formula::Merson);
-    compare(&Method::of::<Dopri5>(), Formula::Dopri5);
-    compare(&Method::of::<Tsit5>(), Formula::Tsit5);
-    compare(&Method::of::<Dop853>(), Formula::Dop853);
+    compare(&ErasedTableau::of::<Heun>(), Formula::Heun);
+    compare(&ErasedTableau::of::<Merson>(), Formula::Merson);
+    compare(&ErasedTableau::of::<Dopri5>(), Formula::Dopri5);
+    compare(&ErasedTableau::of::<Tsit5>(), Formula::Tsit5);
+    compare(&ErasedTableau::of::<Dop853>(), Formula::Dop853);
     for formula in Formula::ALL {
         let adaptive = formula.estimates_error() && formula != Formula::Rodas5;
         assert_eq!(limits(formula).is_some(), adaptive, "{formula}");

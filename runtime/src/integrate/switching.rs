@@ -56,7 +56,7 @@ const PRODUCTS: [usize; 2] = [20, 2];
 
 /// A change of the formula for the next step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Turn {
+pub(crate) struct FormulaChange {
     /// True if the new formula is to begin with far longer steps, because it did not pay without them.
     pub leaps: bool,
     /// The longest step that the new formula may begin with \[s\].
@@ -73,7 +73,7 @@ enum Limited<'w, T> {
 }
 
 /// The counts that decide when to change the method.
-struct Rule {
+struct SwitchingCounts {
     /// Steps at the limit before the implicit method is tried.
     wait: u32,
     /// Steps at the limit, and explicit steps in a row below it, or implicit steps in a row within it.
@@ -91,7 +91,7 @@ struct Rule {
     stride: f64,
 }
 
-impl Rule {
+impl SwitchingCounts {
     fn count_anew(&mut self) {
         (self.at_limit, self.calm, self.strict) = (0, 0, 0);
         (self.gone, self.tries) = (0.0, 0);
@@ -103,13 +103,13 @@ impl Rule {
         self.tries += 1 + rejected;
     }
 
-    /// Counts an accepted explicit step with (h|λ|)⁴ = `reach` after this many `rejected` tries. True if the implicit
-    /// method is to be tried. A step after a rejected try counts as at the limit, because the first try was above it:
+    /// Counts an accepted explicit step with (h|λ|)⁴ = `h_lambda_fourth` after this many `rejected` tries. True if the
+    /// implicit method is to be tried. A step after a rejected try counts as at the limit, because the first try was above it:
     /// at the corner of a friction law |λ| changes from step to step.
-    fn is_stiff(&mut self, [reach, limit]: [f64; 2], rejected: u64) -> bool {
+    fn is_stiff(&mut self, [h_lambda_fourth, limit]: [f64; 2], rejected: u64) -> bool {
         let is_at = |share: f64| {
             let squared = (share * limit) * (share * limit);
-            reach >= squared * squared
+            h_lambda_fourth >= squared * squared
         };
         if is_at(AT) || rejected > 0 {
             (self.at_limit, self.calm) = (self.at_limit + 1, 0);
@@ -138,7 +138,7 @@ pub(crate) struct Switching<'w, T> {
     implicit: bool,
     /// True if the model has no Jacobian.
     never: bool,
-    rule: Rule,
+    rule: SwitchingCounts,
     /// Cost of an implicit step over that of an explicit one.
     cost: f64,
     /// The derivative at the end of an implicit step, once it is known.
@@ -182,7 +182,7 @@ impl<'w, T: Real> Switching<'w, T> {
             rosenbrock: Rosenbrock::new(info, workspace),
             implicit: false,
             never: false,
-            rule: Rule {
+            rule: SwitchingCounts {
                 wait: WAIT,
                 at_limit: 0,
                 calm: 0,
@@ -406,7 +406,7 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
         self.rosenbrock.span().h * self.fastest
     }
 
-    fn turn(&mut self, length: f64, rejected: u64, reach: f64) -> Option<Turn> {
+    fn turn(&mut self, length: f64, rejected: u64, h_lambda_fourth: f64) -> Option<FormulaChange> {
         if self.never {
             return None;
         }
@@ -417,12 +417,15 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
             }
             self.implicit = false;
             self.rule.count_anew();
-            return Some(Turn {
+            return Some(FormulaChange {
                 leaps: false,
                 longest: self.limit() / self.fastest,
             });
         }
-        if !self.rule.is_stiff([reach, self.limit()], rejected) {
+        if !self
+            .rule
+            .is_stiff([h_lambda_fourth, self.limit()], rejected)
+        {
             return None;
         }
         let mean = self.rule.gone / self.rule.tries as f64;
@@ -433,7 +436,7 @@ impl<T: Real> Stepper<T> for Switching<'_, T> {
         let close = f64::from(self.rule.strict) >= MOST * f64::from(self.rule.at_limit);
         self.rule.count_anew();
         (self.implicit, self.fastest) = (true, 0.0);
-        Some(Turn {
+        Some(FormulaChange {
             leaps: close && self.rule.wait > WAIT,
             longest: f64::INFINITY,
         })

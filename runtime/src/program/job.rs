@@ -4,7 +4,7 @@
 use super::ErrorKind;
 use super::Named;
 use super::Reading;
-use crate::simulate::{Method, Settings};
+use crate::simulate::{Integrator, Settings};
 use crate::{Adjustable, Formula, Info, Real, Tolerances};
 use std::fmt;
 use std::time::Duration;
@@ -21,7 +21,7 @@ pub struct Job {
     /// The responses to evaluate over the whole run.
     pub reading: Reading,
     /// The integrator, and how it chooses its steps; see [`Job::method`].
-    pub method: Option<Method>,
+    pub method: Option<Integrator>,
     /// Whether steps end on the kinks of force laws.
     pub locate: Option<bool>,
     /// Limit on the number of steps.
@@ -140,8 +140,8 @@ pub enum JobError {
 impl Job {
     /// The method of a run with this job: if it says none, Dormand & Prince's pair at the default tolerances, which
     /// changes to the Rosenbrock method where the scene is stiff.
-    pub fn method(&self) -> Method {
-        let default = Method::switching(Formula::Dopri5, Tolerances::default());
+    pub fn method(&self) -> Integrator {
+        let default = Integrator::switching(Formula::Dopri5, Tolerances::default());
         self.method.unwrap_or(default)
     }
 

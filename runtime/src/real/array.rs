@@ -130,9 +130,9 @@ macro_rules! array {
         impl $name {
             /// Whether this processor runs tasks over it: on x86-64, whether it has registers of this length.
             #[must_use]
-            pub fn there() -> bool {
+            pub fn is_available() -> bool {
                 #[cfg(target_arch = "x86_64")]
-                return <$instructions>::there();
+                return <$instructions>::is_available();
                 #[cfg(not(target_arch = "x86_64"))]
                 return true;
             }
@@ -148,7 +148,7 @@ macro_rules! array {
             /// long to compile as the first.
             #[inline(always)]
             fn dispatch<W: Task>(task: W) -> W::Output {
-                assert!(Self::there(), "registers that this processor does not have");
+                assert!(Self::is_available(), "registers that this processor does not have");
                 #[cfg(target_arch = "x86_64")]
                 return <$instructions>::dispatch(task);
                 #[cfg(not(target_arch = "x86_64"))]

@@ -10,33 +10,33 @@ use crate::{Dynamics, Formula, Real, Section};
 
 /// The quadrature of powers over a step: one of two Lobatto rules.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Rule {
+pub(crate) enum Quadrature {
     /// Three points, exact for powers of degree 3 (Simpson). Its error, h⁵ P⁗/2880, decreases with the step like the
     /// error estimate of methods of order 5.
-    Three,
+    Degree3,
     /// Four points, exact for powers of degree 5.
-    Five,
+    Degree5,
 }
 
 /// The number of nodes for which values are kept: the first is the start of the step, the last its end. A rule may
 /// leave others unused.
 pub(crate) const NODES: usize = 4;
 
-impl Rule {
+impl Quadrature {
     /// The rule for steps under error control. Steps of methods of higher order are long, and fixed steps may be
     /// arbitrarily long: these need the rule of degree 5.
-    pub(super) fn of(formula: Formula) -> Rule {
+    pub(super) fn of(formula: Formula) -> Quadrature {
         match formula.order() {
-            0..=5 => Rule::Three,
-            _ => Rule::Five,
+            0..=5 => Quadrature::Degree3,
+            _ => Quadrature::Degree5,
         }
     }
 
     /// The inner nodes, as parts of the step, with their indices: ½, or ½ ∓ √(1/20).
     pub(crate) fn inner(self) -> impl Iterator<Item = (usize, f64)> {
         let nodes: &[f64] = match self {
-            Rule::Three => &[0.5],
-            Rule::Five => &[0.276_393_202_250_021_06, 0.723_606_797_749_979],
+            Quadrature::Degree3 => &[0.5],
+            Quadrature::Degree5 => &[0.276_393_202_250_021_06, 0.723_606_797_749_979],
         };
         nodes.iter().enumerate().map(|(i, x)| (1 + i, *x))
     }
@@ -44,8 +44,8 @@ impl Rule {
     /// The weights of all nodes.
     pub(crate) fn weights(self) -> [f64; NODES] {
         match self {
-            Rule::Three => [1.0 / 6.0, 4.0 / 6.0, 0.0, 1.0 / 6.0],
-            Rule::Five => [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0],
+            Quadrature::Degree3 => [1.0 / 6.0, 4.0 / 6.0, 0.0, 1.0 / 6.0],
+            Quadrature::Degree5 => [1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0],
         }
     }
 
@@ -166,7 +166,12 @@ impl<'a, T: Real> Balance<'a, T> {
     }
 
     /// Adds the momentum given to freely moving bodies in a step of this length, from the wrenches at the nodes.
-    pub(super) fn push(&mut self, rule: Rule, length: f64, external_wrenches: &[[T; 6]; NODES]) {
+    pub(super) fn push(
+        &mut self,
+        rule: Quadrature,
+        length: f64,
+        external_wrenches: &[[T; 6]; NODES],
+    ) {
         let momentum = &mut self.momentum;
         for (node, weight) in rule.terms() {
             let weight = T::from_f64(length * weight);
@@ -178,7 +183,7 @@ impl<'a, T: Real> Balance<'a, T> {
     }
 
     /// Adds the work in a step of this length, from its powers at the nodes, one node after the other.
-    pub(super) fn add(&mut self, rule: Rule, length: f64, powers: &[T]) {
+    pub(super) fn add(&mut self, rule: Quadrature, length: f64, powers: &[T]) {
         let effects = self.works.len();
         for (node, weight) in rule.terms() {
             let weight = T::from_f64(length * weight);
@@ -193,18 +198,18 @@ impl<'a, T: Real> Balance<'a, T> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Balance, Buffer, NODES, Rule};
+    use super::{Balance, Buffer, NODES, Quadrature};
 
     #[test]
     fn rules_are_exact_to_their_degree() {
-        for (rule, exact_to) in [(Rule::Three, 3), (Rule::Five, 5)] {
+        for (rule, exact_to) in [(Quadrature::Degree3, 3), (Quadrature::Degree5, 5)] {
             for degree in 0..=6 {
                 is_exact(rule, degree, degree <= exact_to);
             }
         }
     }
 
-    fn is_exact(rule: Rule, degree: i32, expected: bool) {
+    fn is_exact(rule: Quadrature, degree: i32, expected: bool) {
         let mut works = [f64::NAN; 2];
         let mut balance = Balance::new(Buffer::Lent(&mut works));
         let power = |x: f64| x.powi(degree);

@@ -130,7 +130,7 @@ impl<T: Real> Within<'_, T> {
             0 => opposite(zero, before, before),
             k => opposite(zero, before, self.values[(k - 1) * count + i]),
         };
-        let course = Course(mapped([0, 1, 2, 3, 4], |k| at_place(k).to_f64()));
+        let course = StepValues(mapped([0, 1, 2, 3, 4], |k| at_place(k).to_f64()));
         for k in 1..4 {
             let theta = 0.25 * k as f64;
             if course.matters(course.0[k]) {
@@ -244,9 +244,9 @@ impl<P: Number> Bracket<P> {
 
 /// The values of a function at five places of a step, positive on the other side of zero than at the start.
 #[derive(Clone, Copy)]
-pub(crate) struct Course<P>(pub [P; 5]);
+pub(crate) struct StepValues<P>(pub [P; 5]);
 
-impl<P: Number> Course<P> {
+impl<P: Number> StepValues<P> {
     /// True where the function is on the other side at the end: the change is noticed there, but not how deep the
     /// function was on this side before.
     #[inline(always)]

@@ -52,7 +52,7 @@ pub(crate) fn heads_for<T: Real>([past, before]: [T; 2], [h_past, h]: [T; 2]) ->
 /// A place in a step, as a part of the step, and the value of the event function there, positive on the other side of
 /// zero.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct ValuePoint {
     theta: f64,
     value: f64,
 }
@@ -66,10 +66,10 @@ pub(crate) struct Excursion {
     /// The next quarter to examine.
     quarter: usize,
     /// The known place just before the current interval, and the left end of the interval.
-    before: Option<Place>,
-    left: Place,
+    before: Option<ValuePoint>,
+    left: ValuePoint,
     /// Right ends of the current interval and of the intervals that contain it; `depth` is their number.
-    right: [Place; LEVELS],
+    right: [ValuePoint; LEVELS],
     depth: usize,
     taken: u32,
     /// The place whose value is asked for.
@@ -81,7 +81,7 @@ impl Excursion {
     /// A search with the values at the start, the ends of the quarters, and the end.
     pub fn new(values: [f64; 5]) -> Self {
         let seen = values[..4].iter().position(|value| *value > 0.0);
-        let begin = Place {
+        let begin = ValuePoint {
             theta: 0.0,
             value: values[0],
         };
@@ -136,20 +136,20 @@ impl Excursion {
         match value > 0.0 {
             true => self.found = Some(theta),
             false => {
-                self.right[self.depth] = Place { theta, value };
+                self.right[self.depth] = ValuePoint { theta, value };
                 self.depth += 1;
             }
         }
     }
 
-    fn end_of_quarter(&self, k: usize) -> Option<Place> {
+    fn end_of_quarter(&self, k: usize) -> Option<ValuePoint> {
         let value = *self.values.get(k)?;
         let theta = 0.25 * k as f64;
-        Some(Place { theta, value })
+        Some(ValuePoint { theta, value })
     }
 
     /// The known place just beyond the current interval.
-    fn beyond(&self) -> Option<Place> {
+    fn beyond(&self) -> Option<ValuePoint> {
         match self.depth {
             0 | 1 => self.end_of_quarter(self.quarter + 1),
             depth => Some(self.right[depth - 2]),
@@ -157,8 +157,8 @@ impl Excursion {
     }
 
     /// The place in the interval where the lower one of the lines from both sides is highest, with its value.
-    fn meet(&self, right: Place) -> Place {
-        let slope = |a: Place, b: Place| (b.value - a.value) / (b.theta - a.theta);
+    fn meet(&self, right: ValuePoint) -> ValuePoint {
+        let slope = |a: ValuePoint, b: ValuePoint| (b.value - a.value) / (b.theta - a.theta);
         let left = self.left;
         let width = right.theta - left.theta;
         let up = self.before.map(|before| slope(before, left));
@@ -170,20 +170,20 @@ impl Excursion {
             (Some(up), Some(down)) => {
                 let way = (right.value - down * width - left.value) / (up - down);
                 let way = way.clamp(0.0, width);
-                Place {
+                ValuePoint {
                     theta: left.theta + way,
                     value: left.value + up * way,
                 }
             }
-            (Some(up), None) => Place {
+            (Some(up), None) => ValuePoint {
                 theta: right.theta,
                 value: left.value + up * width,
             },
-            (None, Some(down)) => Place {
+            (None, Some(down)) => ValuePoint {
                 theta: left.theta,
                 value: right.value - down * width,
             },
-            (None, None) => Place {
+            (None, None) => ValuePoint {
                 theta: left.theta + 0.5 * width,
                 value: f64::INFINITY,
             },
@@ -192,7 +192,7 @@ impl Excursion {
 
     /// The place in the interval to evaluate: where the lines meet, which is the peak of a function that goes straight
     /// up and down; and, in turns, the vertex of a parabola.
-    fn choose(&self, meet: Place, right: Place) -> f64 {
+    fn choose(&self, meet: ValuePoint, right: ValuePoint) -> f64 {
         let left = self.left;
         let vertex = match self.taken.is_multiple_of(2) {
             true => self.vertex(right),
@@ -205,7 +205,7 @@ impl Excursion {
     }
 
     /// The vertex of the parabola through both ends of the interval and the higher of the known places beyond.
-    fn vertex(&self, right: Place) -> Option<f64> {
+    fn vertex(&self, right: ValuePoint) -> Option<f64> {
         let left = self.left;
         let [a, b, c] = match (self.before, self.beyond()) {
             (Some(before), Some(beyond)) if before.value > beyond.value => [before, left, right],

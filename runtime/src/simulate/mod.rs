@@ -37,7 +37,7 @@ pub(crate) use diagnostic::OutOfRange;
 #[cfg(feature = "std")]
 pub(crate) use diagnostic::Time;
 pub use diagnostic::{Diagnostic, Problem};
-pub use settings::{Adaptive, Method, Pace, Settings};
+pub use settings::{Adaptive, Integrator, Pace, Settings};
 pub(crate) use time_loop::epsilon_of;
 #[cfg(feature = "std")]
 pub use watch::History;
@@ -50,7 +50,7 @@ use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
 pub use driven::Driven;
 #[cfg(feature = "std")]
-pub(crate) use event::{Bracket, Course, WIDTH, Zero, change, opposite};
+pub(crate) use event::{Bracket, StepValues, WIDTH, Zero, change, opposite};
 pub use run::Run;
 #[cfg(feature = "std")]
 pub(crate) use schedule::{count_steps, to_meet};
@@ -233,11 +233,12 @@ pub fn simulate_watched<T: Real, M: Model<T>>(
 /// A generated model is given as [`Direct`], or as [`Differentiable`] where the method needs its Jacobian.
 ///
 /// ```
-/// # use bryant_runtime::{Differentiable, Failure, Formula, Method, Model, Report, Settings, Tolerances, simulate::run};
+/// # use bryant_runtime::{Differentiable, Failure, Formula, Integrator, Model, Report, Settings, Tolerances};
+/// # use bryant_runtime::simulate::run;
 /// # use std::ops::ControlFlow;
 /// fn end<M: Model<f64>>(model: &M) -> Result<Vec<f64>, Failure<'static>> {
 ///     let settings = Settings {
-///         method: Method::adaptive(Formula::Rodas5, Tolerances::default()),
+///         method: Integrator::adaptive(Formula::Rodas5, Tolerances::default()),
 ///         ..Settings::of(M::INFO)
 ///     };
 ///     let mut end = Vec::new();

@@ -118,7 +118,7 @@ pub(crate) const fn onset_of(side: usize, onsets: usize, corners: usize) -> (usi
 
 /// A gap at a place of a step, given as a part of the step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
+struct GapPoint {
     pub theta: f64,
     pub gap: f64,
 }
@@ -207,9 +207,9 @@ struct Search {
     speed: f64,
     limit: f64,
     /// Left end of the current interval; no gap before it is below the limit.
-    left: Place,
+    left: GapPoint,
     /// Right ends of the current interval and of the intervals that contain it, the innermost at `depth`.
-    right: [Place; LEVELS + 1],
+    right: [GapPoint; LEVELS + 1],
     depth: usize,
     /// Number of evaluations so far.
     taken: u32,
@@ -221,7 +221,7 @@ struct Search {
 
 impl Search {
     /// A search in a step of this length between two of its places, for the `first` place below the limit or for any.
-    pub fn new(length: f64, ends: [Place; 2], speed: f64, limit: f64, first: bool) -> Self {
+    pub fn new(length: f64, ends: [GapPoint; 2], speed: f64, limit: f64, first: bool) -> Self {
         let mut search = Search {
             length,
             speed,
@@ -268,7 +268,7 @@ impl Search {
         let bend = (self.left.gap - 2.0 * gap + right.gap).abs();
         let bend = (self.depth >= RESOLVED).then_some(bend);
         self.depth += 1;
-        self.right[self.depth] = Place { theta, gap };
+        self.right[self.depth] = GapPoint { theta, gap };
         if gap <= self.limit && !self.first {
             self.result = Some(Some(theta));
         } else if self.taken > PATIENCE {
@@ -311,7 +311,7 @@ impl Search {
 
 /// The gaps of one law at the start of a step, at the ends of its quarters and at its end, and the largest speed there.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Course {
+pub(crate) struct GapCourse {
     pub gaps: [f64; QUARTERS + 1],
     pub speed: f64,
 }
@@ -365,7 +365,7 @@ impl Hunt {
     }
 
     /// The place at which the gap of [`Hunt::law`] is to be evaluated next; `None` when all laws are done.
-    pub fn next(&mut self, course: impl Fn(usize) -> Course) -> Option<f64> {
+    pub fn next(&mut self, course: impl Fn(usize) -> GapCourse) -> Option<f64> {
         while self.law < self.laws {
             if let Some(search) = &self.search {
                 match search.result() {
@@ -375,7 +375,7 @@ impl Hunt {
                 }
                 continue;
             }
-            let Course { gaps, speed } = course(self.law);
+            let GapCourse { gaps, speed } = course(self.law);
             let of_ends = limits(
                 [gaps[0], gaps[QUARTERS]],
                 self.finest[usize::from(self.law >= self.corners)],
@@ -396,7 +396,7 @@ impl Hunt {
             let speed = MARGIN * speed;
             let length = self.length / QUARTERS as f64;
             while self.search.is_none() && self.quarter < QUARTERS {
-                let ends = mapped([self.quarter, self.quarter + 1], |k| Place {
+                let ends = mapped([self.quarter, self.quarter + 1], |k| GapPoint {
                     theta: k as f64 / QUARTERS as f64,
                     gap: gaps[k],
                 });
@@ -468,7 +468,7 @@ pub(crate) struct Visit {
     /// True if the step begins at the corner, as motions do; another visit in this step cannot be told apart from that.
     begins_there: bool,
     /// The deepest place evaluated.
-    deepest: Place,
+    deepest: GapPoint,
     /// The last evaluated place at which the law acts.
     last: f64,
 }
@@ -479,7 +479,7 @@ impl Visit {
 
     /// A visit of a law or a `corner`, found at this part of the step, with these gaps at the ends of the step.
     pub fn new(found: f64, gaps: [f64; 2], corner: bool) -> Self {
-        let deepest = Place {
+        let deepest = GapPoint {
             theta: found,
             gap: f64::INFINITY,
         };
@@ -505,7 +505,7 @@ impl Visit {
     pub fn tell(&mut self, k: u32, gap: f64) {
         let theta = self.place(k);
         if gap < self.deepest.gap {
-            self.deepest = Place { theta, gap };
+            self.deepest = GapPoint { theta, gap };
         }
         if gap <= 0.0 {
             self.last = self.last.max(theta);

@@ -18,7 +18,7 @@ pub struct Settings {
     /// for none. No step ends on them, so they do not affect the motion.
     pub parts: u64,
     /// The integrator, and the length of its steps.
-    pub method: Method,
+    pub method: Integrator,
     /// Whether steps end on the kinks of force laws ([`Model::kinks`](crate::Model::kinks)): where a contact touches, a
     /// belt goes taut, a curve bends. Otherwise steps pass over them, and only the error control limits the error
     /// there.
@@ -27,10 +27,10 @@ pub struct Settings {
     pub max_steps: u64,
 }
 
-/// The integrator, and the length of its steps.
+/// An integrator: the formula of its steps, and their length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Method {
-    /// The integrator.
+pub struct Integrator {
+    /// The formula of its steps.
     pub formula: Formula,
     /// The length of its steps.
     pub pace: Pace,
@@ -46,24 +46,24 @@ pub enum Pace {
     Adaptive(Adaptive),
 }
 
-impl Method {
-    /// A method with steps of a fixed length \[s\].
-    pub const fn fixed(formula: Formula, step: f64) -> Method {
+impl Integrator {
+    /// An integrator with steps of a fixed length \[s\].
+    pub const fn fixed(formula: Formula, step: f64) -> Integrator {
         let pace = Pace::Fixed(step);
-        Method { formula, pace }
+        Integrator { formula, pace }
     }
 
-    /// A method with steps as long as the tolerances allow, by this formula, and by [`Formula::Rodas5`] for as long as
-    /// the scene is stiff ([`Adaptive::switches`]).
-    pub const fn switching(formula: Formula, tolerances: Tolerances) -> Method {
+    /// An integrator with steps as long as the tolerances allow, by this formula, and by [`Formula::Rodas5`] for as
+    /// long as the scene is stiff ([`Adaptive::switches`]).
+    pub const fn switching(formula: Formula, tolerances: Tolerances) -> Integrator {
         let pace = Pace::Adaptive(Adaptive {
             switches: true,
             ..Adaptive::of(tolerances)
         });
-        Method { formula, pace }
+        Integrator { formula, pace }
     }
 
-    /// Whether the method may change to the Rosenbrock method and back.
+    /// Whether the integrator may change to the Rosenbrock method and back.
     pub const fn switches(&self) -> bool {
         match self.pace {
             Pace::Adaptive(adaptive) => adaptive.switches && self.formula.may_switch(),
@@ -71,10 +71,10 @@ impl Method {
         }
     }
 
-    /// A method with steps as long as the tolerances allow, by one formula from the start to the end.
-    pub const fn adaptive(formula: Formula, tolerances: Tolerances) -> Method {
+    /// An integrator with steps as long as the tolerances allow, by one formula from the start to the end.
+    pub const fn adaptive(formula: Formula, tolerances: Tolerances) -> Integrator {
         let pace = Pace::Adaptive(Adaptive::of(tolerances));
-        Method { formula, pace }
+        Integrator { formula, pace }
     }
 }
 
@@ -115,10 +115,10 @@ impl Default for Adaptive {
     }
 }
 
-impl Default for Method {
+impl Default for Integrator {
     /// Dormand & Prince's pair 5(4) at the default tolerances.
     fn default() -> Self {
-        Method::adaptive(Formula::Dopri5, Tolerances::default())
+        Integrator::adaptive(Formula::Dopri5, Tolerances::default())
     }
 }
 
@@ -131,7 +131,7 @@ impl Settings {
             duration: info.duration,
             every: info.every,
             parts: 0,
-            method: Method::default(),
+            method: Integrator::default(),
             locate: false,
             max_steps: 10_000_000,
         }

@@ -38,7 +38,7 @@ use crate::integrate::{Evaluator, Stepper, first_non_finite};
 use crate::real::mapped;
 use crate::{Dynamics, Info, Real, Section};
 use count::Vote;
-use onset::{END, KEPT, Onsets};
+use onset::{KEPT, Onsets, STORED_END};
 use search::{Approach, HOP, HOP_OF_FEW_DIGITS, RESTLESS, matters};
 #[cfg(feature = "std")]
 pub(crate) use search::{EASY, SEARCHES};
@@ -178,7 +178,7 @@ pub(crate) struct TimeLoop<'a, 'w, T: Real> {
     accelerations: Accelerations<f64>,
     /// (h|λ|)⁴ of the last try by an explicit method that may switch to the implicit one; and the number of rejected
     /// tries of this step.
-    fastness: f64,
+    h_lambda_fourth: f64,
     retries: u64,
     /// Tries left in which an implicit method may damp what the explicit one has let grow.
     settles: u32,
@@ -296,7 +296,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             ),
             allowed: Allowed::new(&tolerances, info, workspace),
             accelerations: Accelerations::new(settings.method.formula, tolerances.accelerations),
-            fastness: 0.0,
+            h_lambda_fourth: 0.0,
             retries: 0,
             settles: 0,
             powers: [
@@ -516,7 +516,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
     /// Lets the stepper change its formula if the scene has become stiff or ceased to be so.
     fn turn(&mut self, step: &mut dyn Stepper<T>, landing: &Landing) {
         let retries = core::mem::take(&mut self.retries);
-        let Some(turn) = step.turn(landing.length, retries, self.fastness) else {
+        let Some(turn) = step.turn(landing.length, retries, self.h_lambda_fourth) else {
             return;
         };
         self.h = self.h.min(turn.longest);
@@ -683,7 +683,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         if step.switched() {
             return self.error_of_slopes(step);
         }
-        self.fastness = 0.0;
+        self.h_lambda_fourth = 0.0;
         step.finish(&mut self.f);
         let (Some(near), Some(last)) = (step.neighbour(self.inside), step.end_rate()) else {
             return 0.0;
@@ -713,7 +713,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
             let between = [size(span.end[i] - self.inside[i]), size(last[i] - near[i])];
             fastest.add(group, size(span.end[i]), between, epsilon);
         }
-        self.fastness = fastest.reach(span.h);
+        self.h_lambda_fourth = fastest.h_lambda_fourth(span.h);
         if !self.accelerations.controlled() {
             return 0.0;
         }
@@ -919,7 +919,7 @@ impl<'a, 'w, T: Real> TimeLoop<'a, 'w, T> {
         let renewed = self.info.length(Section::Renewed);
         let mut wanted = [
             (Section::EventFunctions, &mut *self.event_functions_ahead),
-            (Section::Onsets, self.onsets.at(END)),
+            (Section::Onsets, self.onsets.at(STORED_END)),
             (Section::Renewed, &mut self.renewed[..renewed]),
             // what a watch needs, if there is one
             (Section::Curves, &mut []),

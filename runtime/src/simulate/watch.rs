@@ -42,7 +42,7 @@
 pub(crate) mod account;
 pub(crate) mod error;
 
-use super::balance::{NODES, Rule, exchange};
+use super::balance::{NODES, Quadrature, exchange};
 use super::event::inside;
 use super::time_loop::epsilon_of;
 use super::{Balance, Buffer, Diagnostic, Pace, Problem, Settings};
@@ -134,7 +134,7 @@ pub struct Watch<'a, T: Real> {
     kinetic_ahead: T,
     momentum_ahead: [T; 6],
     /// The quadrature rule over the nodes.
-    rule: Rule,
+    rule: Quadrature,
     /// The works of effects over time, if they are requested.
     #[cfg(feature = "std")]
     pub history: Option<History>,
@@ -231,7 +231,7 @@ impl<'a, T: Real> Watch<'a, T> {
             external_wrenches: [[T::from_f64(0.0); 6]; NODES],
             kinetic_ahead: T::from_f64(0.0),
             momentum_ahead: [T::from_f64(0.0); 6],
-            rule: Rule::Five,
+            rule: Quadrature::Degree5,
             #[cfg(feature = "std")]
             history: None,
         }
@@ -370,7 +370,7 @@ impl<'a, T: Real> Watch<'a, T> {
                 0.0
             }
             Pace::Adaptive(adaptive) => {
-                self.rule = Rule::of(settings.method.formula);
+                self.rule = Quadrature::of(settings.method.formula);
                 let tolerances = adaptive.tolerances;
                 moving(&|kind| match kind {
                     StateKind::Velocity => tolerances.velocities,

@@ -3,7 +3,7 @@
 use crate::models::Ledge;
 use bryant_runtime::batch::rows::{Asked, Job, gradients, rows, rows_of_singles};
 use bryant_runtime::batch::{
-    Ended, Fixed, Method, Pace, STEPS_BETWEEN, Scenarios, Series, Settings, Status, run,
+    Ended, Fixed, LaneFormula, Pace, STEPS_BETWEEN, Scenarios, Series, Settings, Status, run,
 };
 use bryant_runtime::batch::{with_compiled, with_compiled_singles};
 use bryant_runtime::real::lanes::{OfAnyWidth, Several, Width};
@@ -221,7 +221,7 @@ fn settings(pace: Pace) -> Settings {
     }
 }
 
-fn fixed(method: Method, step: f64) -> Settings {
+fn fixed(method: LaneFormula, step: f64) -> Settings {
     settings(Pace::Fixed(Fixed { method, step }))
 }
 
@@ -295,7 +295,7 @@ impl<F: Real> OfAnyWidth<F> for Ledges<'_> {
 /// As of single runs: an event function that jumps where a run stands would cut every step down to nothing, for ever.
 #[test]
 fn a_event_function_that_jumps_where_a_lane_stands_does_not_stop_it() {
-    let rk4 = |step| fixed(Method::Rk4, step).pace;
+    let rk4 = |step| fixed(LaneFormula::Rk4, step).pace;
     for pace in [adaptive().pace, rk4(0.01), rk4(0.5)] {
         let settings = Settings {
             duration: 4.0,
@@ -346,7 +346,7 @@ fn alone(row: [f64; 4], tolerance: f64) -> Vec<f64> {
     let model = Bumper::new(Parameters { all: row });
     let settings = Single {
         every: 0.01,
-        method: bryant_runtime::Method::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
+        method: bryant_runtime::Integrator::adaptive(Formula::Dopri5, Tolerances::of(tolerance)),
         ..Single::of(Bumper::<f64>::INFO)
     };
     let mut samples: [Vec<f64>; 2] = Default::default();
@@ -367,7 +367,11 @@ fn one_by_one(batch: &dyn Fn(Vec<[f64; 4]>) -> Option<Runs>) -> Option<Runs> {
 
 #[test]
 fn lanes_equal_scalar() {
-    let steps = || Method::ALL.into_iter().map(|method| fixed(method, 1e-3));
+    let steps = || {
+        LaneFormula::ALL
+            .into_iter()
+            .map(|method| fixed(method, 1e-3))
+    };
     for settings in steps().chain([adaptive()]) {
         let alone = one_by_one(&|rows| doubles(Width::One, &settings, rows));
         for width in [Width::One, Width::Two, Width::Four, Width::Eight] {
@@ -459,7 +463,7 @@ fn fixed_steps_follow_a_parabola_and_end_where_the_push_begins() {
     // it flies away from the spring, and is pushed from 0.1 s on: x = −0.05 − 0.4 t + (t − 0.1)²
     let row = [-0.4, 100.0, 1.0, 0.0];
     // 0.04 does not divide 0.1
-    let all = Method::ALL.into_iter();
+    let all = LaneFormula::ALL.into_iter();
     let cases = all.flat_map(|method| [(method, 0.01, 40), (method, 0.04, 3 + 8)]);
     for (method, step, steps) in cases {
         let settings = fixed(method, step);
@@ -505,7 +509,7 @@ fn singles_keep_their_tolerance() {
 
 #[test]
 fn singles_differ_from_doubles_by_rounding_alone() {
-    let fixed = fixed(Method::Rk4, 1e-3);
+    let fixed = fixed(LaneFormula::Rk4, 1e-3);
     let singles = singles(Width::widest(), &fixed, scenarios(24)).unwrap();
     let doubles = doubles(Width::widest(), &fixed, scenarios(24)).unwrap();
     for (i, (single, double)) in singles.iter().zip(&doubles).enumerate() {
@@ -648,7 +652,7 @@ fn fixed_steps_have_their_order_and_estimate_their_error() {
         };
         rows(&SWING, &finals(settings, 1, true), &frequencies).unwrap()
     };
-    for method in Method::ALL {
+    for method in LaneFormula::ALL {
         let order = method.formula().order();
         let (long, short) = (found(method, 0.02), found(method, 0.01));
         for (i, frequency) in frequencies.iter().enumerate() {
@@ -674,7 +678,7 @@ fn fixed_steps_have_their_order_and_estimate_their_error() {
 fn the_error_estimate_over_kinks_assumes_first_order() {
     let all: Vec<f64> = scenarios(24).concat();
     let found = |step, estimate| {
-        let settings = fixed(Method::Rk4, step);
+        let settings = fixed(LaneFormula::Rk4, step);
         rows(&BUMPER, &finals(settings, 4, estimate), &all).unwrap()
     };
     let (told, long) = (found(1e-3, true), found(2e-3, false));
@@ -696,7 +700,7 @@ fn the_error_estimate_over_kinks_assumes_first_order() {
 fn many_fixed_steps_in_singles_are_told_to_round() {
     let settings = Settings {
         duration: 0.7,
-        ..fixed(Method::Dopri5, 1e-4)
+        ..fixed(LaneFormula::Dopri5, 1e-4)
     };
     let found = rows_of_singles(&SWING, &finals(settings, 1, true), &[3.0]).unwrap();
     let (row, place) = (found.rows[0], found.responses[0]);
@@ -829,10 +833,10 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
 fn what_is_given_up_ends_there_and_nothing_else_does() {
     // 4000 steps or some more, asked at every 1024th
     for (patience, steps) in [(100, 1024), (1024, 2048), (3000, 3072), (4096, u32::MAX)] {
-        for width in Width::ALL.into_iter().filter(|width| width.there()) {
+        for width in Width::ALL.into_iter().filter(|width| width.is_available()) {
             let mut rows = Rows::new(scenarios(13));
             rows.patience = patience;
-            let settings = fixed(Method::Rk4, 1e-4);
+            let settings = fixed(LaneFormula::Rk4, 1e-4);
             with_compiled(width, Batch(&settings, &mut rows)).expect("registers");
             for (scenario, (ended, _)) in rows.all().iter().enumerate() {
                 if scenario % 2 == 1 && steps < u32::MAX {

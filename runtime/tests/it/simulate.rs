@@ -12,7 +12,7 @@ use crate::scalars::Pair;
 use bryant_runtime::failure::{Culprit, Failure, Quantity, Reason};
 use bryant_runtime::integrate::control::Tolerances;
 use bryant_runtime::simulate::{
-    Adaptive, Cause, Method, Pace, Report, Run, Sample, Settings, Watch, run_in, simulate,
+    Adaptive, Cause, Integrator, Pace, Report, Run, Sample, Settings, Watch, run_in, simulate,
     simulate_from, simulate_stiff, workspace_length,
 };
 use bryant_runtime::{Differentiable, Direct, Dual, Formula, Model};
@@ -33,18 +33,18 @@ where
     (rows, report)
 }
 
-fn at_tolerance(relative: f64) -> Method {
-    Method::adaptive(Formula::Dopri5, Tolerances::uniform(relative))
+fn at_tolerance(relative: f64) -> Integrator {
+    Integrator::adaptive(Formula::Dopri5, Tolerances::uniform(relative))
 }
 
-fn paced(adaptive: Adaptive) -> Method {
-    Method {
+fn paced(adaptive: Adaptive) -> Integrator {
+    Integrator {
         formula: Formula::Dopri5,
         pace: Pace::Adaptive(adaptive),
     }
 }
 
-fn of<M: Model<f64>>(method: Method) -> Settings {
+fn of<M: Model<f64>>(method: Integrator) -> Settings {
     Settings {
         method,
         ..Settings::of(M::INFO)
@@ -52,7 +52,7 @@ fn of<M: Model<f64>>(method: Method) -> Settings {
 }
 
 /// Largest error of x = cos t, v = −sin t over all samples.
-fn oscillator_error(method: Method) -> f64 {
+fn oscillator_error(method: Integrator) -> f64 {
     let (rows, report) = rows::<Oscillator>(&of::<Oscillator>(method));
     report.unwrap();
     let errors = rows
@@ -113,7 +113,7 @@ fn pendulum_period_is_the_elliptic_integral() {
     }
     let period = std::f64::consts::TAU / (9.81_f64.sqrt() * a);
     assert!((period - 2.3678419475762373).abs() < 1e-14);
-    for method in [at_tolerance(1e-12), Method::fixed(Formula::Rk4, 1e-3)] {
+    for method in [at_tolerance(1e-12), Integrator::fixed(Formula::Rk4, 1e-3)] {
         let settings = Settings {
             duration: period,
             every: period,
@@ -131,7 +131,7 @@ fn pendulum_period_is_the_elliptic_integral() {
 
 #[test]
 fn samples_come_at_multiples_and_at_the_end() {
-    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.03)] {
+    for method in [Integrator::default(), Integrator::fixed(Formula::Rk4, 0.03)] {
         let settings = Settings {
             duration: 1.0,
             every: 0.3,
@@ -172,7 +172,7 @@ fn kinks_cost_no_accuracy() {
             9.9 + 198.0 * (t - 0.2),
         ),
     };
-    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.07)] {
+    for method in [Integrator::default(), Integrator::fixed(Formula::Rk4, 0.07)] {
         let (rows, report) = rows::<Sled>(&Settings {
             every: 0.03,
             ..of::<Sled>(method)
@@ -190,7 +190,7 @@ fn kinks_cost_no_accuracy() {
 
 #[test]
 fn a_jump_of_the_derivative_at_a_kink_is_seen_from_both_sides() {
-    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.07)] {
+    for method in [Integrator::default(), Integrator::fixed(Formula::Rk4, 0.07)] {
         let (rows, _) = rows::<Follower>(&of::<Follower>(method));
         for (t, y) in rows {
             assert!((y[0] - PULSE.value(t)).abs() < 1e-12, "{t} {y:?}");
@@ -200,7 +200,7 @@ fn a_jump_of_the_derivative_at_a_kink_is_seen_from_both_sides() {
 
 #[test]
 fn quaternions_stay_units() {
-    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.05)] {
+    for method in [Integrator::default(), Integrator::fixed(Formula::Rk4, 0.05)] {
         let (rows, _) = rows::<Spin>(&Settings {
             every: 0.37,
             ..of::<Spin>(method)
@@ -216,7 +216,7 @@ fn quaternions_stay_units() {
 
 #[test]
 fn a_state_already_on_its_manifold_costs_no_evaluation() {
-    let (_, report) = rows::<Pendulum>(&of::<Pendulum>(Method::default()));
+    let (_, report) = rows::<Pendulum>(&of::<Pendulum>(Integrator::default()));
     let report = report.unwrap();
     // one at the start, one for the first step, six a step
     assert_eq!(report.evaluations, 2 + 6 * (report.steps + report.rejected));
@@ -225,7 +225,7 @@ fn a_state_already_on_its_manifold_costs_no_evaluation() {
 
 #[test]
 fn stiffness_is_survived_without_many_rejections() {
-    let (rows, report) = rows::<Stiff>(&of::<Stiff>(Method::default()));
+    let (rows, report) = rows::<Stiff>(&of::<Stiff>(Integrator::default()));
     let report = report.unwrap();
     for (t, y) in rows {
         // x lags behind cos t by 10⁻⁵ sin t
@@ -302,8 +302,8 @@ fn dual_numbers_carry_the_derivative_of_a_run() {
 fn leaving_a_curve_names_the_force_and_the_time() {
     // the spring hardly brakes: x = t to 10⁻³, the curve ends at 0.45
     for (method, late) in [
-        (Method::default(), 1e-3),
-        (Method::fixed(Formula::Rk4, 0.001), 2e-3),
+        (Integrator::default(), 1e-3),
+        (Integrator::fixed(Formula::Rk4, 0.001), 2e-3),
     ] {
         let (rows, report) = rows::<Runaway>(&of::<Runaway>(method));
         let failure = report.unwrap_err();
@@ -335,7 +335,7 @@ fn leaving_a_curve_names_the_force_and_the_time() {
 
 #[test]
 fn an_explosion_ends_in_a_failure_at_its_time() {
-    let (rows, report) = rows::<Explosion>(&of::<Explosion>(Method::default()));
+    let (rows, report) = rows::<Explosion>(&of::<Explosion>(Integrator::default()));
     let failure = report.unwrap_err();
     assert!((failure.t - 1.0).abs() < 1e-3, "{failure:?}");
     assert!(matches!(
@@ -345,14 +345,15 @@ fn an_explosion_ends_in_a_failure_at_its_time() {
     assert!((9..=11).contains(&rows.len()), "{rows:?}");
     assert!(failure.to_string().contains("coordinate \"x\""));
 
-    let (_, report) = self::rows::<Explosion>(&of::<Explosion>(Method::fixed(Formula::Rk4, 0.01)));
+    let (_, report) =
+        self::rows::<Explosion>(&of::<Explosion>(Integrator::fixed(Formula::Rk4, 0.01)));
     let failure = report.unwrap_err();
     assert!(matches!(failure.reason, Reason::NonFinite { index: 0, .. }));
 }
 
 #[test]
 fn a_start_that_is_no_number_is_refused() {
-    for method in [Method::default(), Method::fixed(Formula::Rk4, 0.01)] {
+    for method in [Integrator::default(), Integrator::fixed(Formula::Rk4, 0.01)] {
         let (rows, report) = rows::<Undefined>(&of::<Undefined>(method));
         let of = Quantity::InitialState;
         let reason = Reason::NonFinite {
@@ -379,7 +380,7 @@ fn a_start_that_is_no_number_is_refused() {
 
 #[test]
 fn too_many_steps_end_a_run() {
-    for method in [at_tolerance(1e-10), Method::fixed(Formula::Rk4, 1e-300)] {
+    for method in [at_tolerance(1e-10), Integrator::fixed(Formula::Rk4, 1e-300)] {
         let settings = Settings {
             max_steps: 10,
             ..of::<Oscillator>(method)
@@ -434,7 +435,7 @@ fn a_first_step_of_nothing_still_gets_there() {
 
 #[test]
 fn settings_without_sense_are_refused() {
-    let good = of::<Oscillator>(Method::default());
+    let good = of::<Oscillator>(Integrator::default());
     let adaptive = |change: fn(&mut Adaptive)| {
         let mut adaptive = Adaptive::default();
         change(&mut adaptive);
@@ -455,7 +456,7 @@ fn settings_without_sense_are_refused() {
             (Settings { every: bad, ..good }, "every"),
             (
                 Settings {
-                    method: Method::fixed(Formula::Rk4, bad),
+                    method: Integrator::fixed(Formula::Rk4, bad),
                     ..good
                 },
                 "step",
@@ -501,7 +502,7 @@ fn settings_without_sense_are_refused() {
 #[test]
 fn a_tolerance_that_lets_all_of_a_value_be_wrong_is_refused() {
     for relative in [1.0, 2.0, 1e300] {
-        let method = Method::adaptive(Formula::Dopri5, Tolerances::of(relative));
+        let method = Integrator::adaptive(Formula::Dopri5, Tolerances::of(relative));
         let (rows, report) = rows::<Oscillator>(&of::<Oscillator>(method));
         let failure = report.unwrap_err();
         let Reason::InvalidSettings(setting) = failure.reason else {
@@ -530,7 +531,7 @@ fn a_tolerance_that_lets_all_of_a_value_be_wrong_is_refused() {
 
 #[test]
 fn default_settings_are_the_defaults_of_their_parts() {
-    assert_eq!(Settings::of(Oscillator::INFO).method, Method::default());
+    assert_eq!(Settings::of(Oscillator::INFO).method, Integrator::default());
 }
 
 #[test]
@@ -585,7 +586,7 @@ fn the_first_of_several_lanes_ends_the_step_for_all() {
 
 #[test]
 fn rejected_steps_do_not_touch_memory() {
-    for method in [at_tolerance(1e-8), Method::fixed(Formula::Rk4, 0.01)] {
+    for method in [at_tolerance(1e-8), Integrator::fixed(Formula::Rk4, 0.01)] {
         let settings = Settings {
             method,
             ..Settings::of(<Counter as Model<f64>>::INFO)
@@ -604,7 +605,7 @@ fn rejected_steps_do_not_touch_memory() {
 #[test]
 fn a_event_function_that_jumps_where_a_run_stands_does_not_stop_it() {
     // of a long step an event is known less well than a time is
-    let fixed = |step| Method::fixed(Formula::Rk4, step);
+    let fixed = |step| Integrator::fixed(Formula::Rk4, step);
     for method in [at_tolerance(1e-8), fixed(0.01), fixed(0.5)] {
         let settings = Settings {
             method,
@@ -621,7 +622,7 @@ fn a_event_function_that_jumps_where_a_run_stands_does_not_stop_it() {
 
 #[test]
 fn what_a_switch_makes_fire_fires_in_the_same_instant() {
-    for method in [at_tolerance(1e-8), Method::fixed(Formula::Rk4, 0.3)] {
+    for method in [at_tolerance(1e-8), Integrator::fixed(Formula::Rk4, 0.3)] {
         let settings = Settings {
             method,
             ..Settings::of(<Chain as Model<f64>>::INFO)
@@ -644,7 +645,7 @@ fn bits(
     watch: &mut Watch<'_, f64>,
 ) -> (Vec<u64>, Report, [f64; 2]) {
     let settings = Settings {
-        method: Method::fixed(formula, 0.01),
+        method: Integrator::fixed(formula, 0.01),
         duration: 1.0,
         ..Settings::of(STAGE)
     };
@@ -681,9 +682,9 @@ fn what_memory_holds_before_does_not_matter() {
 fn a_workspace_is_as_long_as_it_is_said_to_be() {
     fn check<M: Model<f64>>() {
         for formula in Formula::ALL {
-            let mut methods = vec![Method::fixed(formula, 0.01)];
+            let mut methods = vec![Integrator::fixed(formula, 0.01)];
             if formula.estimates_error() {
-                methods.push(Method::switching(formula, Tolerances::default()));
+                methods.push(Integrator::switching(formula, Tolerances::default()));
             }
             for method in methods {
                 let settings = of::<M>(method);
@@ -705,7 +706,7 @@ fn a_workspace_is_as_long_as_it_is_said_to_be() {
 #[test]
 #[should_panic(expected = "the workspace is too short for a run of Pendulum")]
 fn a_workspace_that_is_too_short_is_refused() {
-    let settings = of::<Pendulum>(Method::default());
+    let settings = of::<Pendulum>(Integrator::default());
     let mut memory = vec![0.0; workspace_length(<Pendulum as Model<f64>>::INFO, &settings) - 1];
     let start = Model::<f64>::initial_state(&Pendulum);
     let sink = &mut |_: Sample<'_, f64>| ControlFlow::Continue(());
@@ -721,7 +722,7 @@ fn a_workspace_that_is_too_short_is_refused() {
 
 #[test]
 fn a_method_that_needs_a_jacobian_says_so_where_there_is_none() {
-    let settings = of::<Pendulum>(Method::fixed(Formula::Rodas5, 0.01));
+    let settings = of::<Pendulum>(Integrator::fixed(Formula::Rodas5, 0.01));
     let failure = simulate::<f64, _>(&Pendulum, &settings, &mut |_| {}).unwrap_err();
     let formula = Formula::Rodas5;
     assert_eq!(failure.reason, Reason::NoJacobian { formula });

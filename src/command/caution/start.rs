@@ -5,7 +5,7 @@
 use crate::pose::{Numbers, Pose, Vec3, dot};
 use bryant_generator::law::ForceKind;
 use bryant_generator::law::types::{Against, Contact};
-use bryant_generator::model::scene::Scene;
+use bryant_generator::model::annotated_model::AnnotatedModel;
 use bryant_generator::model::{
     Active, Body, Bristle, Dimension, ElementId, Force, Friction, Model, Number, Reference, Trigger,
 };
@@ -59,7 +59,7 @@ impl<'a> Start<'a> {
     }
 
     /// All remarks about the start, each a sentence with a remedy. `scene` has what the user wrote.
-    pub fn cautions(&self, scene: &Scene) -> Vec<String> {
+    pub fn cautions(&self, scene: &AnnotatedModel) -> Vec<String> {
         let mut all = self.left_behind(scene);
         all.extend(self.behind_planes());
         all.extend(weightless(scene));
@@ -122,7 +122,7 @@ impl<'a> Start<'a> {
     }
 
     /// Remarks about systems at rest that a force connects to a moving vehicle.
-    fn left_behind(&self, scene: &Scene) -> Vec<String> {
+    fn left_behind(&self, scene: &AnnotatedModel) -> Vec<String> {
         let mut all = Vec::new();
         for (index, system) in self.model.systems.iter().enumerate() {
             let Some(own) = self.velocities[index] else {
@@ -266,7 +266,7 @@ impl<'a> Start<'a> {
 
 /// A remark about a model without any field, but with contacts, belts or airbags: in most of these scenes gravity was
 /// forgotten. A field without acceleration says that nothing is to have weight.
-fn weightless(scene: &Scene) -> Option<String> {
+fn weightless(scene: &AnnotatedModel) -> Option<String> {
     let model = &scene.model;
     let field = |force: &Force| {
         matches!(
@@ -297,7 +297,7 @@ fn weightless(scene: &Scene) -> Option<String> {
 
 /// Remarks about items that a model file declares and never uses. Included files are not checked, because they may be
 /// collections.
-pub fn unused(scene: &Scene) -> Vec<String> {
+pub fn unused(scene: &AnnotatedModel) -> Vec<String> {
     let mut written = scene.written.clone();
     let mut used = vec![false; written.curves.len()];
     for curve in written.curve_uses_mut() {

@@ -1,6 +1,6 @@
 //! The table of `bryant effects`: row by row for people, or as JSON.
 
-use crate::timing::{Measured, Method};
+use crate::timing::{Measured, TimedMethod};
 use bryant_generator::effect::{Entry, Reason};
 use bryant_generator::expression::count::Count;
 use bryant_generator::model::Model;
@@ -12,7 +12,7 @@ pub struct Row<'a> {
     /// The effect.
     pub entry: &'a Entry,
     /// The method whose cost the effect changes.
-    pub method: Method,
+    pub method: TimedMethod,
     /// The operations with the effect minus those without it.
     pub operations: Option<Difference>,
     /// Measurements with the effect and without it.

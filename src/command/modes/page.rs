@@ -47,7 +47,7 @@ pub struct Rest<'a> {
 
 /// How a mode is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Course {
+enum ModeMotion {
     Oscillates,
     Decays,
     Grows,
@@ -55,12 +55,12 @@ enum Course {
     Free,
 }
 
-impl Course {
-    const ALL: [Course; 4] = [
-        Course::Oscillates,
-        Course::Decays,
-        Course::Grows,
-        Course::Free,
+impl ModeMotion {
+    const ALL: [ModeMotion; 4] = [
+        ModeMotion::Oscillates,
+        ModeMotion::Decays,
+        ModeMotion::Grows,
+        ModeMotion::Free,
     ];
 
     /// The factors on the shape at the poses of a loop.
@@ -70,29 +70,29 @@ impl Course {
 
     fn of(shown: &Shown<'_>) -> Self {
         match shown.mode.rate {
-            _ if shown.free => Course::Free,
-            rate if rate.im != 0.0 => Course::Oscillates,
-            rate if rate.re > 0.0 => Course::Grows,
-            _ => Course::Decays,
+            _ if shown.free => ModeMotion::Free,
+            rate if rate.im != 0.0 => ModeMotion::Oscillates,
+            rate if rate.re > 0.0 => ModeMotion::Grows,
+            _ => ModeMotion::Decays,
         }
     }
 
     /// The factor on the shape in a part of the loop.
     fn factor(self, part: f64) -> Number {
         match self {
-            Course::Oscillates => Number::from_polar(1.0, TAU * part),
-            Course::Free => Number::new(libm::cos(TAU * part), 0.0),
-            Course::Decays => Number::new(libm::exp(-TIMES * part), 0.0),
-            Course::Grows => Number::new(libm::exp(TIMES * (part - 1.0)), 0.0),
+            ModeMotion::Oscillates => Number::from_polar(1.0, TAU * part),
+            ModeMotion::Free => Number::new(libm::cos(TAU * part), 0.0),
+            ModeMotion::Decays => Number::new(libm::exp(-TIMES * part), 0.0),
+            ModeMotion::Grows => Number::new(libm::exp(TIMES * (part - 1.0)), 0.0),
         }
     }
 
     fn word(self) -> &'static str {
         match self {
-            Course::Oscillates => "oscillates",
-            Course::Decays => "decays",
-            Course::Grows => "grows",
-            Course::Free => "free",
+            ModeMotion::Oscillates => "oscillates",
+            ModeMotion::Decays => "decays",
+            ModeMotion::Grows => "grows",
+            ModeMotion::Free => "free",
         }
     }
 }
@@ -171,7 +171,7 @@ impl<'a> Motions<'a> {
     /// Multiplies each shape so that it is as large as it is drawn \[m, rad\]. Returns the size of what moves \[m\].
     fn size_as_drawn(&self, shapes: &mut [Vec<Number>]) -> Result<f64, Mismatch> {
         // displacements in proportion to the amplitude, at both ends of a quarter of a turn
-        let quarter = [0.0, 0.25].map(|part| Course::Oscillates.factor(part) * SMALL);
+        let quarter = [0.0, 0.25].map(|part| ModeMotion::Oscillates.factor(part) * SMALL);
         let small = shapes
             .iter()
             .flat_map(|shape| quarter.map(|factor| self.displaced(shape, factor)));
@@ -272,7 +272,7 @@ pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
         .collect();
     let size = motions.size_as_drawn(&mut shapes)?;
     let poses = shown.iter().zip(&shapes).flat_map(|(one, shape)| {
-        let factors = Course::of(one).factors();
+        let factors = ModeMotion::of(one).factors();
         factors.map(|factor| motions.displaced(shape, factor))
     });
     let mut scene = motions.scene(poses.collect())?;
@@ -287,7 +287,7 @@ pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
     let mut drawn = report::json(&scene);
     // parts of a loop, of which each mode has one
     drawn["times"] = (0..POSES).map(|pose| json!(part(pose))).collect();
-    let factors = Course::ALL.map(|course| {
+    let factors = ModeMotion::ALL.map(|course| {
         let factors = course.factors().map(|factor| json!([factor.re, factor.im]));
         (course.word().to_owned(), factors.collect())
     });
@@ -298,11 +298,11 @@ pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
 impl Shown<'_> {
     /// The mode as it is drawn, with displacements \[m, rad\] of this shape, of which the farthest point has the largest \[m\].
     fn drawn(&self, shape: &[Number], farthest: f64, info: &Info) -> Value {
-        let course = Course::of(self);
+        let course = ModeMotion::of(self);
         let lasts = match course {
-            Course::Oscillates => Some(TAU / self.mode.rate.im.abs()),
-            Course::Decays | Course::Grows => Some(TIMES / self.mode.rate.re.abs()),
-            Course::Free => None,
+            ModeMotion::Oscillates => Some(TAU / self.mode.rate.im.abs()),
+            ModeMotion::Decays | ModeMotion::Grows => Some(TIMES / self.mode.rate.re.abs()),
+            ModeMotion::Free => None,
         };
         let coordinates = self.shares.iter().filter_map(|(name, share)| {
             let place = info.velocities.iter().position(|one| one == name)?;

@@ -9,7 +9,7 @@ use crate::picture::corridor::Corridor;
 use crate::picture::plot::Request;
 use crate::picture::{self, Arrangement, Format, View};
 use crate::scene::needs_forces;
-use crate::signature::Kind;
+use crate::signature::ContentKind;
 use crate::simulation::Recording;
 use crate::state_file;
 use crate::table::{Layout, Table};
@@ -55,34 +55,35 @@ impl Files {
         let read = read.chain(&arguments.measured).chain(&arguments.responses);
         let mut outputs = Outputs::of(read, arguments.replacing);
         if arguments.json {
-            outputs.take("--json", Path::new("-"), Kind::Table)?;
+            outputs.take("--json", Path::new("-"), ContentKind::Table)?;
         }
-        let mut place = |option: &str, named: &Option<PathBuf>, (extension, kind): (&str, Kind)| {
-            let usual = || directory.join(format!("{}.{extension}", model.name));
-            let path = match named {
-                Some(path) => Some(path.clone()),
-                None => (!arguments.no_files).then(usual),
+        let mut place =
+            |option: &str, named: &Option<PathBuf>, (extension, kind): (&str, ContentKind)| {
+                let usual = || directory.join(format!("{}.{extension}", model.name));
+                let path = match named {
+                    Some(path) => Some(path.clone()),
+                    None => (!arguments.no_files).then(usual),
+                };
+                if let Some(path) = &path {
+                    outputs.take(option, path, kind)?;
+                }
+                Ok(path)
             };
-            if let Some(path) = &path {
-                outputs.take(option, path, kind)?;
-            }
-            Ok(path)
-        };
-        let csv = place("--csv", &arguments.csv, ("csv", Kind::Table))?;
+        let csv = place("--csv", &arguments.csv, ("csv", ContentKind::Table))?;
         let final_state = arguments.final_state.clone();
-        let ending = (arguments.pictures.ending(), Kind::Picture);
+        let ending = (arguments.pictures.ending(), ContentKind::Picture);
         let picture = place("--picture", &arguments.picture, ending)?;
         if let Some(path) = &final_state {
-            outputs.take("--final-state", path, Kind::State)?;
+            outputs.take("--final-state", path, ContentKind::State)?;
         }
         if let Some(folder) = &arguments.mme {
             let test = folder.join(format!("{}.mme", model.name));
-            outputs.take("--mme", &test, Kind::Test)?;
+            outputs.take("--mme", &test, ContentKind::Test)?;
             has_equal_intervals(arguments, model)?;
         }
         let binary = [
-            ("--parquet", &arguments.parquet, Kind::Parquet),
-            ("--animation", &arguments.animation, Kind::Animation),
+            ("--parquet", &arguments.parquet, ContentKind::Parquet),
+            ("--animation", &arguments.animation, ContentKind::Animation),
         ];
         for (option, path, kind) in binary {
             let Some(path) = path else { continue };
@@ -245,7 +246,7 @@ fn plots(
             arguments.pictures.ending()
         ));
         let option = format!("--plot '{}'", plot.text());
-        outputs.take(&option, &path, Kind::Picture)?;
+        outputs.take(&option, &path, ContentKind::Picture)?;
         plots.push((plot, path));
     }
     let corridors = arguments.corridor.iter();

@@ -5,7 +5,7 @@
 //! several sensors fit a place, none is used and all are reported. A channel whose file casts doubt on its data fills a
 //! place only if the user names it.
 
-use super::{PLACES, Place, fits};
+use super::{PLACES, SensorPlace, fits};
 use std::collections::BTreeMap;
 
 /// A channel or an output.
@@ -133,7 +133,7 @@ pub fn choose(candidates: &[Candidate<'_>], asked: &Asked) -> Result<Choice, Str
 fn fitting(
     candidates: &[Candidate<'_>],
     asked: &Asked,
-) -> Result<Vec<(&'static Place, Vec<usize>)>, String> {
+) -> Result<Vec<(&'static SensorPlace, Vec<usize>)>, String> {
     let named = |place: &str| asked.named.iter().any(|(name, _)| name == place);
     let mut used = vec![false; asked.patterns.len()];
     let mut at = Vec::new();
@@ -164,7 +164,7 @@ fn fitting(
 fn occupant(
     candidates: &[Candidate<'_>],
     asked: &Asked,
-    at: &[(&'static Place, Vec<usize>)],
+    at: &[(&'static SensorPlace, Vec<usize>)],
 ) -> Result<Option<String>, String> {
     let of = |index: &usize| occupant_of(candidates[*index].code).to_owned();
     let mut there: BTreeMap<String, Vec<&str>> = BTreeMap::new();
@@ -244,7 +244,7 @@ fn occupant_of(code: &str) -> &str {
 /// # Errors
 /// There is no such place.
 pub fn known(place: &str, of: &str) -> Result<(), String> {
-    let fits = |one: &Place| one.name == place || is_pattern(of) && part(one.name) == place;
+    let fits = |one: &SensorPlace| one.name == place || is_pattern(of) && part(one.name) == place;
     match PLACES.iter().any(fits) {
         true => Ok(()),
         false => {

@@ -2,7 +2,7 @@
 
 use super::choice::{Asked, Candidate, Found, ambiguous, choose, is_pattern, known};
 use super::limits::{self, Limit, Limits};
-use super::{CRITERIA, Criterion, Missing, PLACES, Place};
+use super::{CRITERIA, Criterion, Missing, PLACES, SensorPlace};
 use crate::facts::{CriteriaFact, ModelFacts, OutputFact};
 use crate::quantity::dimension;
 use crate::response::Response;
@@ -228,7 +228,7 @@ fn si(shown: &str) -> &str {
 
 /// Refuses an output that differs from the reading of an instrument: an acceleration that no instrument can measure, or
 /// a load of the neck in the axes of the model.
-fn is_a_reading(output: &OutputFact, place: &Place) -> Result<(), String> {
+fn is_a_reading(output: &OutputFact, place: &SensorPlace) -> Result<(), String> {
     let name = &output.name;
     if let Some(why) = &output.unread {
         return Err(format!(

@@ -16,7 +16,7 @@ pub mod limits;
 mod places;
 
 pub use judge::{Judged, Shown, judge, named};
-pub use places::{PLACES, Place, fits};
+pub use places::{PLACES, SensorPlace, fits};
 
 use crate::response::What;
 use bryant_runtime::response::STANDARD_GRAVITY;

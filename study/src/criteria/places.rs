@@ -2,7 +2,7 @@
 
 /// A place: its name, the channel codes of ISO-MME that belong to it, with `?` for any character and `|` between two,
 /// and its SI unit.
-pub struct Place {
+pub struct SensorPlace {
     /// The name after `--place`; under `criteria` in a model it has `_` in place of `-`.
     pub name: &'static str,
     /// Channel codes.
@@ -11,12 +11,12 @@ pub struct Place {
     pub unit: &'static str,
 }
 
-const fn place(name: &'static str, code: &'static str, unit: &'static str) -> Place {
-    Place { name, code, unit }
+const fn place(name: &'static str, code: &'static str, unit: &'static str) -> SensorPlace {
+    SensorPlace { name, code, unit }
 }
 
 /// All places, in the order of the keys of `criteria` in a model.
-pub const PLACES: [Place; 27] = [
+pub const PLACES: [SensorPlace; 27] = [
     place("head", "??HEADCG????ACR?|??HEAD00????ACR?", "m/s^2"),
     place("head-x", "??HEADCG????ACX?|??HEAD00????ACX?", "m/s^2"),
     place("head-y", "??HEADCG????ACY?|??HEAD00????ACY?", "m/s^2"),

@@ -4,14 +4,14 @@
 //! tree, once the file has this shape.
 
 use crate::response;
-use crate::study::{Method, Precision, TableKind};
+use crate::study::{LaneFormula, Precision, TableKind};
 use bryant_generator::description::measure::Time;
 use bryant_generator::description::place::At;
 use bryant_generator::description::schema::{Schema, any_of, list_of, mapping_of, typed};
 use bryant_generator::description::shape::{
     In, Key, Misfit, Named, Problems, Record, Shape, Value, check_record, record, words,
 };
-use bryant_generator::description::tree::Kind;
+use bryant_generator::description::tree::NodeKind;
 use bryant_runtime::response::filter::Filter;
 
 record! {
@@ -130,7 +130,7 @@ record! {
         /// [fixed steps](#fixed-steps) of this length, instead of `accuracy`
         step: Option<In<Scalar, Time>>,
         /// of fixed steps: `heun`, `rk4`, `merson` or `dopri5`
-        method: Option<Method> = "`rk4`",
+        method: Option<LaneFormula> = "`rk4`",
         /// of fixed steps: share of energy and momentum that may be missing
         energy_limit: Option<Scalar> = "2 %",
         /// `double`, or [`single`](#single-precision)
@@ -231,7 +231,7 @@ macro_rules! shapes {
 shapes! {
     /// A number, with its unit or in SI.
     Scalar |_to| any_of([typed("number"), typed("string")]), |at, problems| {
-        if !matches!(at.node.kind, Kind::Scalar { .. }) || at.node.is_null() {
+        if !matches!(at.node.kind, NodeKind::Scalar { .. }) || at.node.is_null() {
             problems.add(at.problem(
                 format!("here stands {}, but a number is needed", at.node.article()),
                 "write a number, or one with its unit such as `10 mm`",
@@ -241,7 +241,7 @@ shapes! {
 
     /// Rows as written, or the file that has them.
     Rows |to| any_of([list_of(mapping_of(Scalar::schema(to))), File::schema(to)]), |at, problems| match at.node.kind {
-        Kind::Map(_) => check_record::<File>(at, problems),
+        NodeKind::Map(_) => check_record::<File>(at, problems),
         _ => Vec::<Named<Scalar>>::check(at, problems),
     };
 

@@ -5,7 +5,7 @@ use crate::quantity::strict;
 use crate::study::Varied;
 use bryant_generator::description::place::At;
 use bryant_generator::description::shape::{Problems, Shape};
-use bryant_generator::description::tree::{Kind, Node};
+use bryant_generator::description::tree::{Node, NodeKind};
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_generator::read::LANGUAGE;
 use bryant_generator::{Diagnostic, Diagnostics};
@@ -76,7 +76,7 @@ impl Reader {
 
     /// A quantity in SI units with the dimension of `unit`; a bare number is in `unit`.
     pub fn quantity(&self, at: At<'_>, unit: &str) -> Option<f64> {
-        let Kind::Scalar { text, .. } = &at.node.kind else {
+        let NodeKind::Scalar { text, .. } = &at.node.kind else {
             let message = format!("here stands {}, but a number is needed", at.node.article());
             self.add(at.problem(
                 message,
@@ -114,7 +114,7 @@ impl Reader {
     /// An integer of at least 0, also written as `1e6`.
     pub fn whole(&self, at: At<'_>, what: &str) -> Option<u64> {
         let number = match &at.node.kind {
-            Kind::Scalar { text, .. } => text.parse::<u64>().ok().or_else(|| {
+            NodeKind::Scalar { text, .. } => text.parse::<u64>().ok().or_else(|| {
                 let float: f64 = text.parse().ok()?;
                 let whole = (0.0..=EXACT).contains(&float) && float.fract() == 0.0;
                 whole.then_some(float as u64)
@@ -123,7 +123,7 @@ impl Reader {
         };
         if number.is_none() {
             let float = match &at.node.kind {
-                Kind::Scalar { text, .. } => text.parse::<f64>().ok(),
+                NodeKind::Scalar { text, .. } => text.parse::<f64>().ok(),
                 _ => None,
             };
             let (message, help) = match float {
@@ -177,7 +177,7 @@ impl Reader {
 /// The entries of a mapping, with their places.
 pub fn entries(at: At<'_>) -> Vec<(&str, At<'_>)> {
     match &at.node.kind {
-        Kind::Map(entries) => {
+        NodeKind::Map(entries) => {
             let keys = entries.iter().map(|entry| entry.key.as_str());
             keys.map(|key| (key, at.key(key))).collect()
         }
@@ -188,7 +188,7 @@ pub fn entries(at: At<'_>) -> Vec<(&str, At<'_>)> {
 /// The entries of a list.
 pub fn items(at: At<'_>) -> Vec<At<'_>> {
     match &at.node.kind {
-        Kind::List(items) => (0..items.len()).map(|i| at.item(i)).collect(),
+        NodeKind::List(items) => (0..items.len()).map(|i| at.item(i)).collect(),
         _ => Vec::new(),
     }
 }
@@ -227,15 +227,15 @@ pub fn shown_in(fact: &ParameterFact, unit: Option<&str>) -> Varied {
 /// The unit of the first number in a node that is written with one.
 fn stated<'n>(node: &'n Node, unit: &str) -> Option<&'n str> {
     match &node.kind {
-        Kind::Scalar { text, .. } => {
+        NodeKind::Scalar { text, .. } => {
             let text = text.trim();
             let end = text.find(|c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E'))?;
             let (number, stated) = text.split_at(end);
             let plain = number.trim().parse::<f64>().is_ok();
             (plain && strict(text, unit).is_ok()).then_some(stated)
         }
-        Kind::List(items) => items.iter().find_map(|item| self::stated(item, unit)),
-        Kind::Map(entries) => entries
+        NodeKind::List(items) => items.iter().find_map(|item| self::stated(item, unit)),
+        NodeKind::Map(entries) => entries
             .iter()
             .find_map(|entry| self::stated(&entry.value, unit)),
     }

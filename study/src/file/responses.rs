@@ -7,7 +7,7 @@ use crate::quantity::dimension;
 use crate::response::{NAMES, Response, What, channel_of, meant};
 use crate::study::RunSettings;
 use bryant_generator::description::place::At;
-use bryant_generator::description::tree::Kind;
+use bryant_generator::description::tree::NodeKind;
 use bryant_generator::diagnostic::{quoted, suggestion};
 use bryant_runtime::response::filter::Filter;
 
@@ -145,7 +145,7 @@ fn written_time(at: At<'_>) -> Option<(&'static str, String)> {
     ["at", "duration"]
         .into_iter()
         .find_map(|key| match &optional(at, key)?.node.kind {
-            Kind::Scalar { text, .. } => Some((key, text.clone())),
+            NodeKind::Scalar { text, .. } => Some((key, text.clone())),
             _ => None,
         })
 }

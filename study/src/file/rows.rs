@@ -9,7 +9,7 @@ use crate::study::{Listed, Plan, Varied};
 use bryant_generator::Diagnostic;
 use bryant_generator::description::load::open_file;
 use bryant_generator::description::place::At;
-use bryant_generator::description::tree::Kind;
+use bryant_generator::description::tree::NodeKind;
 use bryant_generator::diagnostic::quoted;
 use bryant_table::unit::{product, spelled};
 use std::fmt::Display;
@@ -33,7 +33,7 @@ pub fn read(
     let help = "write `rows: [{ slack: 10 mm }, …]` or `rows: { csv: FILE }`";
     let at = reader.required(root, "rows", help)?;
     let (varied, values) = match &at.node.kind {
-        Kind::Map(_) => {
+        NodeKind::Map(_) => {
             let at = optional(at, "csv")?;
             let path = reader.text(at)?;
             let table = Table {

@@ -11,7 +11,7 @@
 //! which the fit would then predict from itself. Such a term is left out.
 
 use super::family::{Family, HIGHEST};
-use super::index::{Estimate, Indices, Method, Sensitivity};
+use super::index::{Estimate, Estimator, Indices, Sensitivity};
 use super::sample::Sample;
 use crate::design::permutation::Permutation;
 use nalgebra::{DMatrix, DVector};
@@ -83,7 +83,7 @@ pub fn indices(sample: &Sample, response: usize) -> Option<Sensitivity> {
         }
     };
     Some(Sensitivity {
-        method: Method::Polynomial {
+        method: Estimator::Polynomial {
             degree,
             terms,
             runs: n,

@@ -7,7 +7,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sensitivity {
     /// The method of estimation.
-    pub method: Method,
+    pub method: Estimator,
     /// One entry for each varied parameter.
     pub parameters: Vec<Indices>,
 }
@@ -15,7 +15,7 @@ pub struct Sensitivity {
 /// The method of estimation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Method {
+pub enum Estimator {
     /// From the groups of a Saltelli design.
     Groups {
         /// Number of complete groups.

@@ -9,7 +9,7 @@
 //! but reduces their scatter. Sums are kept for batches of groups; intervals follow from batches that are drawn with
 //! replacement (bootstrap).
 
-use super::index::{Estimate, Indices, Method, Sensitivity};
+use super::index::{Estimate, Estimator, Indices, Sensitivity};
 use super::sample::quantile;
 use crate::hash;
 use crate::study::Study;
@@ -170,7 +170,7 @@ impl Groups {
             total: estimate(p, 1),
         };
         Some(Sensitivity {
-            method: Method::Groups {
+            method: Estimator::Groups {
                 groups: all.count as u64,
             },
             parameters: (0..self.parameters).map(indices).collect(),

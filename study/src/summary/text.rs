@@ -1,6 +1,6 @@
 //! The summary as text for people.
 
-use super::index::{Estimate, Method, Sensitivity};
+use super::index::{Estimate, Estimator, Sensitivity};
 use super::{About, Summary};
 use crate::table::csv::heading;
 use bryant_picture::text::typeset;
@@ -124,8 +124,8 @@ fn correlations(correlations: &[f64], parameters: &[String]) -> Vec<Vec<String>>
 /// The method of estimation of the indices, in words.
 pub fn method(sensitivity: &Sensitivity) -> String {
     match sensitivity.method {
-        Method::Groups { groups } => format!("shares of the variance, from {groups} groups"),
-        Method::Polynomial {
+        Estimator::Groups { groups } => format!("shares of the variance, from {groups} groups"),
+        Estimator::Polynomial {
             degree,
             terms,
             runs,

@@ -10,7 +10,7 @@ const PAGE: &str = include_str!("../../../docs/studies.md");
 
 fn facts() -> ModelFacts {
     let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/child-seat.yaml");
-    ModelFacts::of(&bryant_generator::read_scene(&model).unwrap())
+    ModelFacts::of(&bryant_generator::read_annotated(&model).unwrap())
 }
 
 #[test]

@@ -7,7 +7,7 @@ use bryant_study::results::Results;
 use bryant_study::run::run;
 use bryant_study::shard::Shard;
 use bryant_study::study::Study;
-use bryant_study::summary::index::{Estimate, Method, Sensitivity};
+use bryant_study::summary::index::{Estimate, Estimator, Sensitivity};
 use bryant_study::summary::{About, summarize};
 use std::f64::consts::PI;
 
@@ -68,7 +68,7 @@ fn groups_find_the_indices_of_closed_forms() {
         let sensitivity = found[0].sensitivity.as_ref().unwrap();
         assert_eq!(
             sensitivity.method,
-            Method::Groups {
+            Estimator::Groups {
                 groups: groups as u64
             }
         );
@@ -118,7 +118,7 @@ fn intervals_of_groups_hold_what_they_promise() {
 fn groups_that_lost_a_run_are_left_out() {
     // the second response is missing for a > 3
     let found = about(&study("design: saltelli\nruns: 5120\nseed: 3"), ishigami);
-    let Method::Groups { groups } = found[1].sensitivity.as_ref().unwrap().method else {
+    let Estimator::Groups { groups } = found[1].sensitivity.as_ref().unwrap().method else {
         panic!("groups");
     };
     // A or AB_a: a group is complete with the probability p², p = (3 + π)/2π
@@ -139,7 +139,7 @@ fn a_polynomial_is_found_to_rounding() {
     for design in ["monte carlo", "latin hypercube", "sobol"] {
         let found = about(&study(&format!("design: {design}\nruns: 200")), sobol_g);
         let sensitivity = found[1].sensitivity.as_ref().unwrap();
-        let Method::Polynomial {
+        let Estimator::Polynomial {
             degree, explained, ..
         } = sensitivity.method
         else {
@@ -191,7 +191,7 @@ fn polynomials_of_normal_parameters_are_hermites() {
 /// their weights within a few tenths, so that conditions are small.
 fn assert_exact(about: &About, exact: Exact, what: &str) {
     let sensitivity = about.sensitivity.as_ref().unwrap();
-    let Method::Polynomial { explained, .. } = sensitivity.method else {
+    let Estimator::Polynomial { explained, .. } = sensitivity.method else {
         panic!("{sensitivity:?}");
     };
     assert!((1.0 - explained).abs() < 1e-12, "{what}: {sensitivity:?}");
@@ -278,7 +278,7 @@ fn a_polynomial_errs_by_no_more_than_it_leaves_unexplained() {
             formula,
         );
         let sensitivity = found[0].sensitivity.as_ref().unwrap();
-        let Method::Polynomial { explained, .. } = sensitivity.method else {
+        let Estimator::Polynomial { explained, .. } = sensitivity.method else {
             panic!("{sensitivity:?}");
         };
         assert!(explained > least && explained < 1.0, "{sensitivity:?}");

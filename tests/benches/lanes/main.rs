@@ -31,14 +31,14 @@ mod chain30 {
 }
 
 /// A model over any scalar.
-trait Scene {
+trait ModelFamily {
     type Over<T: Real>: Model<T>;
 }
 
 macro_rules! scenes {
     ($($scene:ident: $($module:ident)::+,)*) => {$(
         struct $scene;
-        impl Scene for $scene {
+        impl ModelFamily for $scene {
             type Over<T: Real> = $($module)::+::Mechanism<T>;
         }
     )*};
@@ -113,7 +113,7 @@ fn time<T: Real, M: Model<T>>() -> f64 {
 /// Time for one state \[s\].
 struct PerState<S>(PhantomData<S>);
 
-impl<S: Scene> OfAnyWidth for PerState<S> {
+impl<S: ModelFamily> OfAnyWidth for PerState<S> {
     type Output = f64;
 
     fn run<T: Several<One = f64>>(self) -> f64 {
@@ -223,7 +223,7 @@ const MODELS: [Entry; 6] = [
     },
 ];
 
-fn time_of<S: Scene>(width: Option<Width>) -> Option<f64> {
+fn time_of<S: ModelFamily>(width: Option<Width>) -> Option<f64> {
     match width {
         Some(width) => with_width(width, PerState::<S>(PhantomData)),
         None => Some(time::<f64, S::Over<f64>>()),
@@ -232,7 +232,7 @@ fn time_of<S: Scene>(width: Option<Width>) -> Option<f64> {
 
 /// The widths of this processor's registers.
 fn widths() -> impl Iterator<Item = Width> {
-    Width::ALL.into_iter().filter(|width| width.there())
+    Width::ALL.into_iter().filter(|width| width.is_available())
 }
 
 fn evaluations() {

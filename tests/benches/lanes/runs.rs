@@ -40,7 +40,7 @@ pub fn table() {
     println!("{RUNS} runs of 120 ms to 0.1 %, six parameters, four responses; runs in a second.\n");
     println!("| registers | one thread | {threads} threads |");
     println!("|---|---|---|");
-    for width in Width::ALL.into_iter().filter(|width| width.there()) {
+    for width in Width::ALL.into_iter().filter(|width| width.is_available()) {
         let [one, all] = [1, threads].map(|threads| rate(width, threads));
         println!("| {} | {one:.0} | {all:.0} |", width.name());
     }

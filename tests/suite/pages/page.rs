@@ -51,7 +51,7 @@ impl Mark {
 
 /// What a part of a page is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum PartKind {
     /// a block of code: the lines between the fences
     Block,
     /// a table: its lines with heading and rule
@@ -65,7 +65,7 @@ pub enum Kind {
 /// A part of a page.
 #[derive(Clone, Debug)]
 pub struct Part {
-    pub kind: Kind,
+    pub kind: PartKind,
     /// the language of a block
     pub language: String,
     pub mark: Mark,
@@ -109,7 +109,13 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    fn push(&mut self, kind: Kind, language: &str, lines: std::ops::Range<usize>, follows: bool) {
+    fn push(
+        &mut self,
+        kind: PartKind,
+        language: &str,
+        lines: std::ops::Range<usize>,
+        follows: bool,
+    ) {
         let mark = std::mem::take(&mut self.waiting);
         let language = language.trim().to_owned();
         self.parts.push(Part {
@@ -131,7 +137,7 @@ impl Reader<'_> {
         let follows = self.behind == begin;
         if let Some(language) = line.trim_start().strip_prefix("```") {
             let end = until(&|line| line.trim_start().starts_with("```"));
-            self.push(Kind::Block, language, next..end, follows);
+            self.push(PartKind::Block, language, next..end, follows);
             self.behind = end + 1;
             return Ok(end + 1);
         }
@@ -164,15 +170,15 @@ impl Reader<'_> {
                 .iter()
                 .any(|line| line.contains("!["));
             let kind = if pictures {
-                Kind::Pictures
+                PartKind::Pictures
             } else {
-                Kind::Table
+                PartKind::Table
             };
             self.push(kind, "", begin..end, false);
             return Ok(end);
         }
         if line.contains("![") {
-            self.push(Kind::Pictures, "", begin..next, false);
+            self.push(PartKind::Pictures, "", begin..next, false);
         } else if line.trim().is_empty() {
             self.behind = if follows { next } else { self.behind };
         } else {
@@ -184,7 +190,7 @@ impl Reader<'_> {
     /// A mark that nothing follows that it is about.
     fn lone(&mut self, line: usize) {
         if !self.waiting.0.is_empty() {
-            self.push(Kind::Lone, "", line..line, false);
+            self.push(PartKind::Lone, "", line..line, false);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::called::cache;
 use super::output::{self, Printed};
-use super::page::{Kind, Mark, Part, parts};
+use super::page::{Mark, Part, PartKind, parts};
 use super::{asked, drawn, root, table};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -125,14 +125,14 @@ impl Page<'_> {
             self.says(says, at);
         }
         match part.kind {
-            Kind::Block if part.language == "sh" => self.commands(part),
-            Kind::Block if part.language == "text" => self.text(part),
+            PartKind::Block if part.language == "sh" => self.commands(part),
+            PartKind::Block if part.language == "text" => self.text(part),
             // a file that is there, and not one that the page makes
-            Kind::Block if part.mark.get("prints").is_some() => self.text(part),
-            Kind::Block if part.language == "yaml" => self.yaml(part),
-            Kind::Table if part.mark.get("rows").is_some() => self.table(part),
-            Kind::Table => self.unmarked(part),
-            Kind::Pictures => self.pictures(part),
+            PartKind::Block if part.mark.get("prints").is_some() => self.text(part),
+            PartKind::Block if part.language == "yaml" => self.yaml(part),
+            PartKind::Table if part.mark.get("rows").is_some() => self.table(part),
+            PartKind::Table => self.unmarked(part),
+            PartKind::Pictures => self.pictures(part),
             _ => (),
         }
     }
@@ -508,13 +508,17 @@ fn within(folder: &Path, base: &str, part: &str) -> Result<String, String> {
 pub fn strange(part: &Part) -> Option<String> {
     let fits = |key: &str| match key {
         "not run" | "slow" | "run" | "says" | "replace" | "take" => true,
-        "file" => part.kind == Kind::Block,
-        "other" => part.kind == Kind::Table || matches!(part.language.as_str(), "text" | "yaml"),
-        "prints" => part.kind == Kind::Block && matches!(part.language.as_str(), "text" | "yaml"),
-        "part of" | "exit" => part.kind == Kind::Block && part.language == "text",
-        "within" => part.kind == Kind::Block && part.language == "yaml",
-        "rows" | "columns" | "with" => part.kind == Kind::Table,
-        "picture" | "each" => part.kind == Kind::Pictures,
+        "file" => part.kind == PartKind::Block,
+        "other" => {
+            part.kind == PartKind::Table || matches!(part.language.as_str(), "text" | "yaml")
+        }
+        "prints" => {
+            part.kind == PartKind::Block && matches!(part.language.as_str(), "text" | "yaml")
+        }
+        "part of" | "exit" => part.kind == PartKind::Block && part.language == "text",
+        "within" => part.kind == PartKind::Block && part.language == "yaml",
+        "rows" | "columns" | "with" => part.kind == PartKind::Table,
+        "picture" | "each" => part.kind == PartKind::Pictures,
         _ => false,
     };
     let Mark(rows) = &part.mark;

@@ -66,7 +66,7 @@ fn swept(at: &Path, run: &str, lanes: &str) -> (Table, String) {
 fn every_row_without_a_result_says_why() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    let widths = Width::ALL.into_iter().filter(|width| width.there());
+    let widths = Width::ALL.into_iter().filter(|width| width.is_available());
     for width in widths {
         for run in ["sampling: 10 ms", "sampling: 10 ms, step: 5 ms"] {
             let (table, stdout) = swept(at, run, width.name());
@@ -154,7 +154,7 @@ fn fixed_steps_that_go_over_something_are_told() {
         rows.join(", ")
     );
     std::fs::write(at.join("study.yaml"), study).unwrap();
-    let widths = Width::ALL.into_iter().filter(|width| width.there());
+    let widths = Width::ALL.into_iter().filter(|width| width.is_available());
     for width in widths {
         let folder = format!("missed-{}", width.name());
         let lanes = ["--out", &folder, "--lanes", width.name()];
@@ -204,7 +204,7 @@ fn ellipsoids_that_sink_through_each_other_are_told_in_lanes() {
              {run}responses: [{{ of: speed, what: final }}]\ntables: [csv]\n"
         )
     };
-    let widths = Width::ALL.into_iter().filter(|width| width.there());
+    let widths = Width::ALL.into_iter().filter(|width| width.is_available());
     for width in widths {
         for run in ["", "run: { step: 10 us, method: rk4 }\n"] {
             std::fs::write(at.join("study.yaml"), study(run)).unwrap();

@@ -39,7 +39,7 @@ fn threads_lanes_and_shards_leave_no_trace() {
     sweep("five", &["--threads", "5"]);
     assert_same(&at.join("one"), &at.join("five"));
 
-    for width in Width::ALL.iter().filter(|width| width.there()) {
+    for width in Width::ALL.iter().filter(|width| width.is_available()) {
         let folder = format!("lanes-{}", width.name());
         sweep(&folder, &["--lanes", width.name()]);
         assert_same(&at.join("one"), &at.join(&folder));

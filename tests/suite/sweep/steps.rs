@@ -57,7 +57,7 @@ fn fixed_steps_agree_in_all_lanes_and_with_an_accurate_run() {
         // kinks are anywhere in the steps of a run and of its twin: in one row both may have the same error, but not in all
         let most = told.iter().fold(0.0, |most: f64, told| most.max(*told));
         near(&table, &sharp, most);
-        for width in Width::ALL.iter().filter(|width| width.there()) {
+        for width in Width::ALL.iter().filter(|width| width.is_available()) {
             let folder = format!("{method}-{}", width.name());
             let arguments = ["sweep", "steps.yaml", "--out", &folder];
             call(
@@ -111,7 +111,7 @@ fn single_precision_keeps_its_accuracy_and_is_not_mixed_in() {
         let (_, said) = call(at, &["sweep", study, "--out", folder], 2);
         assert!(said.contains("differs"), "{said}");
     }
-    let wide = Width::ALL.into_iter().filter(|width| width.there());
+    let wide = Width::ALL.into_iter().filter(|width| width.is_available());
     for width in wide {
         let folder = format!("singles-{}", width.name());
         let arguments = ["sweep", "singles.yaml", "--out", &folder];

@@ -7,7 +7,7 @@ use bryant::accuracy::comparison::PROMISED;
 use bryant::simulation;
 use bryant_hard::random::Random;
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 
 /// Draws a scene.
 type Shape = fn(&mut Random) -> String;
@@ -179,7 +179,7 @@ fn laws_that_act_together_are_as_accurate_as_promised_or_said_not_to_be() {
         ("ringed", ringed),
     ];
     let sharp = Job {
-        method: Some(Method::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
+        method: Some(Integrator::adaptive(Formula::Dop853, Tolerances::of(1e-11))),
         locate: Some(true),
         ..Job::default()
     };

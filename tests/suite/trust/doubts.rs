@@ -28,7 +28,7 @@ use bryant_runtime::batch::rows::{Asked, Job as RowsJob};
 use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};
 use bryant_runtime::program::{ErrorKind, Job};
 use bryant_runtime::simulate::ENERGY_LIMIT;
-use bryant_runtime::{Formula, Method, Response, Tolerances, Width};
+use bryant_runtime::{Formula, Integrator, Response, Tolerances, Width};
 use std::time::Duration;
 
 /// A ball over a plate with an end, or a spring; the tests exchange parts of it.
@@ -97,7 +97,7 @@ run: { duration: 0.1 s, every: 1 ms }
 #[test]
 fn an_edge_that_fades_over_less_than_the_depth_says_so() {
     assert_eq!(kinds(FOAM, &job()), [""; 0]);
-    let found = in_lanes(FOAM, batch::Method::Dopri5, 1e-4, ENERGY_LIMIT);
+    let found = in_lanes(FOAM, batch::LaneFormula::Dopri5, 1e-4, ENERGY_LIMIT);
     assert_eq!(found, (Status::Done, None));
     let wide = FOAM.replace("extent: 0.25", "extent: 0.25, edge: { width: 60 mm }");
     assert_eq!(kinds(&wide, &job()), [""; 0]);
@@ -111,7 +111,7 @@ fn an_edge_that_fades_over_less_than_the_depth_says_so() {
             && doubts[0].amount > 2.0,
         "{doubts:?}"
     );
-    let (status, doubt) = in_lanes(&narrow, batch::Method::Dopri5, 1e-4, ENERGY_LIMIT);
+    let (status, doubt) = in_lanes(&narrow, batch::LaneFormula::Dopri5, 1e-4, ENERGY_LIMIT);
     assert!(
         matches!((status, doubt), (Status::Doubtful, Some(Doubt::Left(_)))),
         "{doubt:?}"
@@ -403,7 +403,7 @@ fn a_joint_through_its_singular_angle_says_so() {
                     && said.contains("since t = "),
                 "{said}"
             );
-            let (status, doubt) = in_lanes(&text, batch::Method::Dopri5, 5e-3, ENERGY_LIMIT);
+            let (status, doubt) = in_lanes(&text, batch::LaneFormula::Dopri5, 5e-3, ENERGY_LIMIT);
             assert!(
                 matches!((status, doubt), (Status::Doubtful, Some(Doubt::Bent(0)))),
                 "{law} {rates}: {doubt:?}"
@@ -419,7 +419,7 @@ fn a_joint_through_its_singular_angle_says_so() {
     ] {
         let text = with(rates, law);
         assert_eq!(kinds(&text, &job()), [""; 0], "{law} {rates}");
-        let found = in_lanes(&text, batch::Method::Dopri5, 5e-3, ENERGY_LIMIT);
+        let found = in_lanes(&text, batch::LaneFormula::Dopri5, 5e-3, ENERGY_LIMIT);
         assert_eq!(found, (Status::Done, None), "{law} {rates}");
     }
     // the same on both sides; fixed steps may come so near to the angle that rounding decides where the moment points to
@@ -437,7 +437,7 @@ fn steps_that_are_too_long_are_told() {
     let line = "{ points: [[-1, -10000], [1, 10000]], extrapolate: linear }";
     let stiff = SPRING.replace("CURVE", line);
     let with = |formula, step| Job {
-        method: Some(Method::fixed(formula, step)),
+        method: Some(Integrator::fixed(formula, step)),
         every: Some(6.0),
         ..job()
     };
@@ -503,7 +503,7 @@ run: { duration: 2 s, every: 2 s }
 
 fn stepped(formula: Formula, step: f64) -> Job {
     Job {
-        method: Some(Method::fixed(formula, step)),
+        method: Some(Integrator::fixed(formula, step)),
         ..job()
     }
 }
@@ -683,7 +683,7 @@ fn steps_that_err_are_told() {
 /// How the only row of a scene ends in lanes by fixed steps.
 fn in_lanes(
     text: &str,
-    method: batch::Method,
+    method: batch::LaneFormula,
     step: f64,
     energy_limit: f64,
 ) -> (Status, Option<Doubt>) {
@@ -713,7 +713,7 @@ fn in_lanes(
 fn lanes_of_fixed_steps_are_watched_as_single_runs_are() {
     let line = "{ points: [[-1, -10000], [1, 10000]], extrapolate: linear }";
     let stiff = SPRING.replace("CURVE", line);
-    let rk4 = |text, step| in_lanes(text, batch::Method::Rk4, step, ENERGY_LIMIT);
+    let rk4 = |text, step| in_lanes(text, batch::LaneFormula::Rk4, step, ENERGY_LIMIT);
     let good = (Status::Done, None);
     // as `steps_that_are_too_long_are_told`
     let (status, doubt) = rk4(&stiff, 0.034);
@@ -730,16 +730,16 @@ fn lanes_of_fixed_steps_are_watched_as_single_runs_are() {
     // as `momentum_that_is_lost_is_told`
     assert_eq!(rk4(PULL, 0.2), (Status::Doubtful, Some(Doubt::Momentum)));
     assert_eq!(rk4(PULL, 0.05), good);
-    let off = in_lanes(PULL, batch::Method::Rk4, 0.2, f64::INFINITY);
+    let off = in_lanes(PULL, batch::LaneFormula::Rk4, 0.2, f64::INFINITY);
     assert_eq!(off, good);
     // as `what_a_stage_alone_meets_is_told`
-    let (status, doubt) = in_lanes(MEET, batch::Method::Merson, 0.01, ENERGY_LIMIT);
+    let (status, doubt) = in_lanes(MEET, batch::LaneFormula::Merson, 0.01, ENERGY_LIMIT);
     assert!(
         matches!((status, doubt), (Status::Doubtful, Some(Doubt::Error(_)))),
         "{doubt:?}"
     );
     assert_eq!(
-        in_lanes(MEET, batch::Method::Merson, 2e-5, ENERGY_LIMIT),
+        in_lanes(MEET, batch::LaneFormula::Merson, 2e-5, ENERGY_LIMIT),
         good
     );
 }
@@ -905,12 +905,12 @@ fn ellipsoids_that_sink_through_each_other_say_so() {
         .replace("[10 mm, 10 mm]", "[10 mm, 10 mm, 10 mm]");
     // along their shortest axes, one of which would be a disc
     let flat = |text: &str| text.replacen("[10 mm, 10 mm", "[3 mm, 10 mm", 1);
-    let with = |offset: f64, stiffness: f64, method: Option<Method>| Job {
+    let with = |offset: f64, stiffness: f64, method: Option<Integrator>| Job {
         parameters: vec![("offset".into(), offset), ("stiffness".into(), stiffness)],
         method,
         ..job()
     };
-    let fixed = |step| Some(Method::fixed(Formula::Rk4, step));
+    let fixed = |step| Some(Integrator::fixed(Formula::Rk4, step));
     for text in [BALLS.to_owned(), space.clone(), flat(BALLS), flat(&space)] {
         // 100 N/m stop nothing: one ball passes through the other, in steps of the default method and in short ones
         for method in [None, fixed(1e-5), fixed(1.3e-5)] {
@@ -989,7 +989,7 @@ fn a_bag_that_is_pressed_flat_says_so() {
     // 0.113 m³, of which the ball leaves about 4 litres, or none
     assert_eq!(at(-0.2), [""; 0]);
     assert_eq!(at(-0.25), ["volume"]);
-    let rk4 = |text: &str| in_lanes(text, batch::Method::Rk4, 1e-6, ENERGY_LIMIT).1;
+    let rk4 = |text: &str| in_lanes(text, batch::LaneFormula::Rk4, 1e-6, ENERGY_LIMIT).1;
     assert_eq!(rk4(BAG), None);
     let deep = BAG.replace("-0.2 m", "-0.25 m");
     let found = rk4(&deep);

@@ -3,7 +3,7 @@
 use super::sound;
 use bryant::simulation::{self, Recording};
 use bryant_runtime::program::Job;
-use bryant_runtime::{Formula, Method, Tolerances};
+use bryant_runtime::{Formula, Integrator, Tolerances};
 use std::f64::consts::TAU;
 
 const TOLERANCE: f64 = 1e-10;
@@ -23,7 +23,10 @@ fn on_a_bushing(dimension: u8, laws: &str, rest: &str) -> Recording {
     );
     let (_, engine) = sound(&text);
     let job = Job {
-        method: Some(Method::adaptive(Formula::Dopri5, Tolerances::of(TOLERANCE))),
+        method: Some(Integrator::adaptive(
+            Formula::Dopri5,
+            Tolerances::of(TOLERANCE),
+        )),
         ..Job::default()
     };
     let recording = simulation::run(&engine, &job, &mut |_| ());

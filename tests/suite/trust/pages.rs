@@ -154,14 +154,14 @@ impl Wrench {
 }
 
 /// A model with one free body and one force.
-struct Scene {
+struct FreeBody {
     model: Model,
     equations: Equations,
     engine: Engine,
 }
 
-impl Scene {
-    fn new(force: &str, rest: &str) -> Scene {
+impl FreeBody {
+    fn new(force: &str, rest: &str) -> FreeBody {
         let text = format!(
             "model: page\ndimension: 3\nsystems:\n  - name: one\n    elements: [{{ name: body, mass: {MASS}, cg: [0, 0, 0], inertia: [{INERTIA}, {INERTIA}, {INERTIA}] }}]\nforces:\n  - {{ {force} }}\n{rest}"
         );
@@ -171,7 +171,7 @@ impl Scene {
             route: None,
         };
         let equations = derive_with(&model, options);
-        Scene {
+        FreeBody {
             engine: Engine::new(Config::new().lists(&model)).unwrap(),
             model,
             equations,
@@ -264,7 +264,7 @@ fn torque(angle: f64, rate: f64, locked: f64) -> f64 {
 fn joints_about_bryant_angles() {
     let mut random = Random::new(1);
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let scene = Scene::new(
+        let scene = FreeBody::new(
             &format!("joint: one/body, about: {{ {axis}: {{ {LAW} }} }}"),
             NOW,
         );
@@ -321,7 +321,7 @@ fn joints_with_memory_motors_and_drives() {
     let (mut between, mut stuck, mut limited) = (0, 0, 0);
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
         let [foam, dented] = [&foam, &dented].map(|law| {
-            Scene::new(
+            FreeBody::new(
                 &format!("joint: one/body, about: {{ {axis}: {{ {law} }} }}"),
                 "",
             )
@@ -390,11 +390,11 @@ fn flexion_and_torsion() {
     let law = law.split(", lock").next().expect("a law");
     let mut random = Random::new(2);
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let flexion = Scene::new(
+        let flexion = FreeBody::new(
             &format!("joint: one/body, axis: {name}, flexion: {{ {law} }}"),
             "",
         );
-        let torsion = Scene::new(
+        let torsion = FreeBody::new(
             &format!("joint: one/body, axis: {name}, torsion: {{ {LAW} }}"),
             NOW,
         );
@@ -443,7 +443,7 @@ fn flexion_and_torsion() {
 
 #[test]
 fn flexion_does_not_brake_the_spin_of_a_bent_arm() {
-    let scene = Scene::new(
+    let scene = FreeBody::new(
         "joint: one/body, flexion: { damping: 0.5, friction: 1 }",
         "",
     );
@@ -498,12 +498,12 @@ fn contacts_with_a_plane() {
     let law = "elastic: { points: [[0, 0], [0.02, 300], [0.1, 800]], extrapolate: linear }, damping: 40, damping_depth: 0.01, friction: 0.4, friction_speed: 0.3";
     let foam =
         "unloading: { points: [[0, 0], [0.1, 100]], extrapolate: linear }, unloading_slope: 30000";
-    let slides = Scene::new(&format!("contact: c, {geometry}, {law}"), "");
-    let holds = Scene::new(
+    let slides = FreeBody::new(&format!("contact: c, {geometry}, {law}"), "");
+    let holds = FreeBody::new(
         &format!("contact: c, {geometry}, {law}, friction_displacement: 0.002"),
         "",
     );
-    let unloads = Scene::new(&format!("contact: c, {geometry}, {law}, {foam}"), "");
+    let unloads = FreeBody::new(&format!("contact: c, {geometry}, {law}, {foam}"), "");
     let mut random = Random::new(3);
     let (mut touched, mut slid) = (0, 0);
     for _ in 0..STATES {
@@ -566,7 +566,7 @@ fn contacts_with_a_plane() {
 #[test]
 fn planes_that_end() {
     let of = |edge: &str| {
-        Scene::new(
+        FreeBody::new(
             &format!(
                 "contact: c, ellipsoid: {{ on: one/body, center: [0, 0, 0], semi_axes: [0.1, 0.1, 0.1] }}, plane: {{ on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1], extent: [0.3, 0.2], edge: {edge} }}, elastic: {{ points: [[0, 0], [0.1, 800]], extrapolate: linear }}"
             ),
@@ -617,7 +617,7 @@ fn planes_that_end() {
 
 #[test]
 fn contacts_of_two_balls() {
-    let scene = Scene::new(
+    let scene = FreeBody::new(
         "contact: c, ellipsoid: { on: one/body, center: [0.03, 0, 0], semi_axes: [0.2, 0.2, 0.2] }, with: { on: frame, center: [0.1, 0, 0], semi_axes: [0.3, 0.3, 0.3] }, elastic: { points: [[0, 0], [0.02, 300], [0.1, 800]], extrapolate: linear }, damping: 40, damping_depth: 0.01, friction: 0.4, friction_speed: 0.3",
         "",
     );
@@ -650,26 +650,26 @@ const WEBBING: [[f64; 2]; 3] = [[0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
 #[test]
 fn belts() {
     let ends = "from: { on: one/body, at: [0.1, -0.05, 0.02] }, to: { on: frame, at: [1, 0, 0] }, force: { points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }";
-    let plain = Scene::new(
+    let plain = FreeBody::new(
         &format!("belt: b, {ends}, length: 0.8, damping: 60, damping_stretch: 0.05"),
         "",
     );
-    let slack = Scene::new(&format!("belt: b, {ends}, slack: 0.03"), "");
-    let limited = Scene::new(
+    let slack = FreeBody::new(&format!("belt: b, {ends}, slack: 0.03"), "");
+    let limited = FreeBody::new(
         &format!("belt: b, {ends}, length: 0.8, limiter: {{ force: 700 }}"),
         "",
     );
-    let reel = Scene::new(
+    let reel = FreeBody::new(
         &format!("belt: b, {ends}, retractor: {{ lock: never, spool: 20 }}"),
         "switches: [{ switch: never, when: { time: 9 } }]\n",
     );
-    let fired = Scene::new(
+    let fired = FreeBody::new(
         &format!(
             "belt: b, {ends}, length: 0.8, pretensioner: {{ fire: now, retract: {{ points: [[0, 0], [1, 0.1]] }} }}"
         ),
         NOW,
     );
-    let foam = Scene::new(
+    let foam = FreeBody::new(
         &format!(
             "belt: b, {ends}, length: 0.8, unloading: {{ points: [[0, 0], [1, 400]], extrapolate: linear }}, unloading_slope: 20000"
         ),
@@ -684,7 +684,7 @@ fn belts() {
         let (length, along) = (norm(span), unit(span));
         let rate = -dot(along, body.velocity_at(from));
         let pull = |tension: f64| Wrench::at(&body, from, times(tension, along));
-        let check = |what: &str, scene: &Scene, tension: f64, memory: &[(&str, f64)]| {
+        let check = |what: &str, scene: &FreeBody, tension: f64, memory: &[(&str, f64)]| {
             let ours = scene.acts(&body, 0.4, &[], memory);
             same(what, ours, pull(tension), 100.0 * (tension + 2e4 * length));
         };
@@ -723,7 +723,7 @@ fn belts() {
 /// and s is subtracted from L₀ of the segment before.
 #[test]
 fn rings() {
-    let scene = Scene::new(
+    let scene = FreeBody::new(
         "belt: b, from: { on: frame, at: [-1, 0, 0.3] }, through: [{ ring: r, on: one/body, at: [0.1, -0.05, 0.02], friction: 0.3 }], to: { on: frame, at: [1, 0.2, 0] }, force: { points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }, length: 1.7, damping: 60",
         "",
     );
@@ -801,7 +801,7 @@ fn rings() {
 #[test]
 fn airbags() {
     let (radius, other, surrounding) = (0.3, 0.2, 101_325.0);
-    let scene = Scene::new(
+    let scene = FreeBody::new(
         "airbag: b, ellipsoid: { on: frame, center: [0.1, 0, 0], semi_axes: [0.3, 0.3, 0.3] }, against: [{ on: one/body, center: [0.03, 0, 0], semi_axes: [0.2, 0.2, 0.2] }], vent: { area: 0.002, coefficient: 0.6 }, start: { pressure: 150000, temperature: 350 }",
         "",
     );
@@ -897,11 +897,11 @@ fn airbags() {
 #[test]
 fn springs() {
     let ends = "from: { on: one/body, at: [0.1, -0.05, 0.02] }, to: { on: frame, at: [1, 0, 0] }";
-    let line = Scene::new(
+    let line = FreeBody::new(
         &format!("spring: s, {ends}, stiffness: 700, length: 0.8, damping: 60"),
         "",
     );
-    let curved = Scene::new(
+    let curved = FreeBody::new(
         &format!(
             "spring: s, {ends}, elastic: {{ points: [[-1, -900], [0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }}"
         ),
@@ -965,8 +965,8 @@ fn bushings() {
     const POINTS: [[f64; 2]; 4] = [[-1.0, -900.0], [0.0, 0.0], [0.1, 500.0], [1.0, 2000.0]];
     let own = "{ on: one/body, at: [0.1, -0.05, 0.02], axes: [0.3, -0.2, 0.5] }";
     let other = "{ on: frame, at: [0.2, 0.1, -0.1], axes: [-0.4, 0.1, 0.2] }";
-    let first = Scene::new(&format!("bushing: b, from: {own}, to: {other}, {LAWS}"), "");
-    let second = Scene::new(&format!("bushing: b, from: {other}, to: {own}, {LAWS}"), "");
+    let first = FreeBody::new(&format!("bushing: b, from: {own}, to: {other}, {LAWS}"), "");
+    let second = FreeBody::new(&format!("bushing: b, from: {other}, to: {own}, {LAWS}"), "");
     let mut random = Random::new(11);
     for _ in 0..STATES {
         let body = Moving::random(&mut random, [0.0; 3], 0.5);
@@ -1032,11 +1032,11 @@ fn bushings() {
 
 #[test]
 fn fields_and_loads() {
-    let field = Scene::new(
+    let field = FreeBody::new(
         "field: f, acceleration: [1.5, { points: [[0, 0], [1, 4]] }, -9.81]",
         "",
     );
-    let load = Scene::new(
+    let load = FreeBody::new(
         "load: l, on: one/body, at: [0.1, 0.2, -0.3], force: [3, { points: [[0, 0], [1, 4]] }, -5], moment: [0.5, -0.4, 0.3]",
         "",
     );

@@ -1,4 +1,4 @@
-use bryant::signature::{Kind, is_own_heading, is_signed, signed};
+use bryant::signature::{ContentKind, is_own_heading, is_signed, signed};
 use std::path::Path;
 
 #[test]
@@ -23,13 +23,17 @@ fn headings_of_others_are_not_ours() {
 
 #[test]
 fn endings_of_other_formats_contradict() {
-    let contradicts = |kind: Kind, name: &str| kind.contradicts(Path::new(name));
-    assert!(contradicts(Kind::Report, "x.pdf") && contradicts(Kind::Animation, "x.gltf"));
-    assert!(contradicts(Kind::Parquet, "x.CSV") && contradicts(Kind::Table, "a/x.xlsx"));
+    let contradicts = |kind: ContentKind, name: &str| kind.contradicts(Path::new(name));
+    assert!(
+        contradicts(ContentKind::Report, "x.pdf") && contradicts(ContentKind::Animation, "x.gltf")
+    );
+    assert!(
+        contradicts(ContentKind::Parquet, "x.CSV") && contradicts(ContentKind::Table, "a/x.xlsx")
+    );
     for (kind, name) in [
-        (Kind::Report, "x.HTML"),
-        (Kind::Table, "x"),
-        (Kind::State, "x.v2"),
+        (ContentKind::Report, "x.HTML"),
+        (ContentKind::Table, "x"),
+        (ContentKind::State, "x.v2"),
     ] {
         assert!(!contradicts(kind, name), "{name}");
     }

@@ -3,12 +3,12 @@
 use crate::{Result, time};
 use bryant_runtime::integrate::{march, march_adams, march_dop853};
 use bryant_runtime::simulate::simulate_from;
-use bryant_runtime::{Formula, Method, Model, Real, Settings};
+use bryant_runtime::{Formula, Integrator, Model, Real, Settings};
 use std::ops::ControlFlow;
 
 /// The formula of a step.
 #[derive(Clone, Copy)]
-pub enum Rule {
+pub enum StepFormula {
     /// Runge–Kutta 4.
     Rk4,
     /// Dormand–Prince 8(5,3).
@@ -17,12 +17,12 @@ pub enum Rule {
     Adams,
 }
 
-impl Rule {
-    pub fn named(name: &str) -> Result<Rule> {
+impl StepFormula {
+    pub fn named(name: &str) -> Result<StepFormula> {
         match name {
-            "rk4" => Ok(Rule::Rk4),
-            "dop853" => Ok(Rule::Dop853),
-            "adams" => Ok(Rule::Adams),
+            "rk4" => Ok(StepFormula::Rk4),
+            "dop853" => Ok(StepFormula::Dop853),
+            "adams" => Ok(StepFormula::Adams),
             _ => Err(format!("a fall is by rk4, dop853 or adams, not by {name:?}").into()),
         }
     }
@@ -32,9 +32,9 @@ impl Rule {
     pub fn march<T: Real, M: Model<T>>(self, model: &M, h: T, steps: u32, y: &mut M::State) {
         let t = T::from_f64(0.0);
         match self {
-            Rule::Rk4 => march(model, t, h, steps, y),
-            Rule::Dop853 => march_dop853(model, t, h, steps, y),
-            Rule::Adams => march_adams(model, t, h, steps, y),
+            StepFormula::Rk4 => march(model, t, h, steps, y),
+            StepFormula::Dop853 => march_dop853(model, t, h, steps, y),
+            StepFormula::Adams => march_adams(model, t, h, steps, y),
         };
     }
 }
@@ -45,13 +45,13 @@ pub fn fall<M: Model<f64>>(
     start: M::State,
     duration: f64,
     step: f64,
-    rule: Rule,
+    rule: StepFormula,
 ) -> Result<(Vec<f64>, Vec<f64>)> {
     let mut end = start;
     let formula = match rule {
-        Rule::Rk4 => Formula::Rk4,
-        Rule::Dop853 => Formula::Dop853,
-        Rule::Adams => {
+        StepFormula::Rk4 => Formula::Rk4,
+        StepFormula::Dop853 => Formula::Dop853,
+        StepFormula::Adams => {
             let steps = (duration / step).round() as u32;
             let times = time::runs(|| {
                 end = start;
@@ -65,7 +65,7 @@ pub fn fall<M: Model<f64>>(
         duration,
         every: duration,
         parts: 0,
-        method: Method::fixed(formula, step),
+        method: Integrator::fixed(formula, step),
         locate: false,
         max_steps: u64::MAX,
     };

@@ -1,6 +1,6 @@
 //! Several states at once, one in each lane of a register.
 
-use crate::fall::Rule;
+use crate::fall::StepFormula;
 use crate::time;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth};
 use bryant_runtime::{Model, ParameterSet, Real, Several, Task, Vector};
@@ -15,7 +15,7 @@ pub struct Accelerations<'a, M> {
 /// Gives the times of runs \[ns per run\] and the end of the first one. The lanes have slightly different starts.
 pub struct Fall<'a, M> {
     pub start: &'a [f64],
-    pub rule: Rule,
+    pub rule: StepFormula,
     pub steps: u32,
     pub step: f64,
     pub of: PhantomData<M>,

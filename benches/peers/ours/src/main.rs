@@ -22,7 +22,7 @@ mod time;
 
 use bryant_runtime::real::lanes::with_width;
 use bryant_runtime::{Model, ParameterSet, Width};
-use fall::Rule;
+use fall::StepFormula;
 use std::error::Error;
 use std::io::Read;
 use std::marker::PhantomData;
@@ -175,7 +175,7 @@ fn main() -> Result<()> {
             let states = read()?;
             let task = lanes::Fall {
                 start: states.first().ok_or("a state is missing")?,
-                rule: Rule::named(method)?,
+                rule: StepFormula::named(method)?,
                 steps: (duration / step).round() as u32,
                 step,
                 of: PhantomData::<models::dummy15::Mechanism<f64>>,
@@ -191,7 +191,7 @@ fn main() -> Result<()> {
             let states = read()?;
             let start = array(states.first().ok_or("a state is missing")?, 0)?;
             let (duration, step) = (duration.parse()?, step.parse()?);
-            let (times, end) = fall::fall(&mechanism, start, duration, step, Rule::named(method)?)?;
+            let (times, end) = fall::fall(&mechanism, start, duration, step, StepFormula::named(method)?)?;
             println!("{}", numbers(&times));
             println!("{}", numbers(&end));
         }

@@ -11,7 +11,7 @@ use bryant_runtime::batch::{Pace, Settings};
 use bryant_runtime::real::Array8;
 use bryant_runtime::real::lanes::{MOST_LANES, OfAnyWidth, with_width};
 use bryant_runtime::{
-    Dual, Dynamics, Formula, Method as RunMethod, Real, Reason, Response, Section,
+    Dual, Dynamics, Formula, Integrator as RunMethod, Real, Reason, Response, Section,
     Settings as RunSettings, Several, Tolerances, Width, simulate,
 };
 use std::ops::ControlFlow;
@@ -268,7 +268,7 @@ fn rows_have_the_same_bits_in_every_width() {
         let widths = [Width::One, Width::Two, Width::Four, Width::Eight];
         let done = widths
             .into_iter()
-            .filter(|width| width.there())
+            .filter(|width| width.is_available())
             .map(|width| {
                 let results = engine.rows(&job(width), &rows).unwrap();
                 let steps: Vec<_> = results

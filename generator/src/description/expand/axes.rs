@@ -6,7 +6,7 @@
 
 use super::{Expander, Node, mirror::negated};
 use crate::description::joint::Coordinate;
-use crate::description::tree::{Entry, Kind};
+use crate::description::tree::{Entry, NodeKind};
 use crate::diagnostic::quoted;
 
 const NAMES: [&str; 3] = ["x", "y", "z"];
@@ -24,13 +24,13 @@ impl Expander<'_> {
             axes.map(|axis| one("slider", axis)).collect()
         };
         let freedoms: Vec<Node> = match (&joint.kind, joint.text()) {
-            (Kind::List(list), _) => {
+            (NodeKind::List(list), _) => {
                 let each = list
                     .iter()
                     .map(|freedom| self.mirrored_freedom(system, freedom));
                 each.collect::<Vec<_>>().concat()
             }
-            (Kind::Map(_), _) => self.mirrored_freedom(system, joint),
+            (NodeKind::Map(_), _) => self.mirrored_freedom(system, joint),
             (_, Some("translation")) => along(self, directions),
             (_, Some("free")) => {
                 let hinges = turns
@@ -42,10 +42,10 @@ impl Expander<'_> {
             _ => return joint.clone(),
         };
         match (&joint.kind, &freedoms[..]) {
-            (Kind::Map(_), [single]) => single.clone(),
+            (NodeKind::Map(_), [single]) => single.clone(),
             _ => Node {
                 span: joint.span,
-                kind: Kind::List(freedoms),
+                kind: NodeKind::List(freedoms),
             },
         }
     }
@@ -137,7 +137,7 @@ impl Expander<'_> {
 fn one(key: &str, value: Node) -> Node {
     Node {
         span: value.span,
-        kind: Kind::Map(vec![Entry {
+        kind: NodeKind::Map(vec![Entry {
             key: key.to_owned(),
             span: value.span,
             value,

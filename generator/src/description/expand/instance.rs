@@ -8,7 +8,7 @@ use super::{Known, Node};
 use crate::description::language::Language;
 use crate::description::place::At;
 use crate::description::shape::Problems;
-use crate::description::tree::Kind;
+use crate::description::tree::NodeKind;
 use std::collections::HashSet;
 
 /// The sections whose items may mention the system.
@@ -131,8 +131,10 @@ impl Renaming {
                 continue;
             };
             match &mut list.kind {
-                Kind::List(all) => all.retain_mut(|item| self.apply_to(item, section) || !again),
-                Kind::Map(all) => all.retain_mut(|entry| {
+                NodeKind::List(all) => {
+                    all.retain_mut(|item| self.apply_to(item, section) || !again)
+                }
+                NodeKind::Map(all) => all.retain_mut(|entry| {
                     let mentions = self.mentions(&mut entry.value);
                     self.apply_to(&mut entry.value, section);
                     if mentions {
@@ -140,10 +142,10 @@ impl Renaming {
                     }
                     mentions || !again
                 }),
-                Kind::Scalar { .. } => {}
+                NodeKind::Scalar { .. } => {}
             }
         }
-        let Some(Kind::List(systems)) = root.get_mut("systems").map(|s| &mut s.kind) else {
+        let Some(NodeKind::List(systems)) = root.get_mut("systems").map(|s| &mut s.kind) else {
             return;
         };
         for system in systems {
@@ -195,7 +197,7 @@ impl Renaming {
         if formula.get("with").is_none() {
             let with = Node {
                 span: formula.span,
-                kind: Kind::Map(Vec::new()),
+                kind: NodeKind::Map(Vec::new()),
             };
             formula.set("with", with);
         }
@@ -257,7 +259,7 @@ fn items<'n>(
     language: &Language,
 ) -> Vec<(Option<String>, &'n mut Node)> {
     match root.get_mut(section).map(|list| &mut list.kind) {
-        Some(Kind::List(all)) => all
+        Some(NodeKind::List(all)) => all
             .iter_mut()
             .map(|item| {
                 let name = match section {
@@ -270,7 +272,7 @@ fn items<'n>(
                 (name, item)
             })
             .collect(),
-        Some(Kind::Map(all)) => all
+        Some(NodeKind::Map(all)) => all
             .iter_mut()
             .map(|entry| (Some(format!("surface {}", entry.key)), &mut entry.value))
             .collect(),
@@ -283,12 +285,12 @@ fn references(item: &mut Node, visit: &mut dyn FnMut(Reference, &mut String)) {
     let is_output = item.get("what").is_some();
     let is_formula = item.get("formula").is_some();
     match &mut item.kind {
-        Kind::Scalar { .. } => {}
-        Kind::List(all) => all.iter_mut().for_each(|one| references(one, visit)),
-        Kind::Map(entries) => {
+        NodeKind::Scalar { .. } => {}
+        NodeKind::List(all) => all.iter_mut().for_each(|one| references(one, visit)),
+        NodeKind::Map(entries) => {
             for entry in entries {
                 let value = &mut entry.value;
-                let is_text = matches!(value.kind, Kind::Scalar { .. });
+                let is_text = matches!(value.kind, NodeKind::Scalar { .. });
                 match entry.key.as_str() {
                     "on" | "joint" | "relative_to" => texts(value, Reference::Body, visit),
                     "with" if is_formula => texts(value, Reference::Output, visit),
@@ -307,9 +309,9 @@ fn references(item: &mut Node, visit: &mut dyn FnMut(Reference, &mut String)) {
 /// Visits a text, or those of a list or mapping.
 fn texts(value: &mut Node, kind: Reference, visit: &mut dyn FnMut(Reference, &mut String)) {
     match &mut value.kind {
-        Kind::Scalar { text, .. } => visit(kind, text),
-        Kind::List(all) => all.iter_mut().for_each(|one| texts(one, kind, visit)),
-        Kind::Map(entries) => {
+        NodeKind::Scalar { text, .. } => visit(kind, text),
+        NodeKind::List(all) => all.iter_mut().for_each(|one| texts(one, kind, visit)),
+        NodeKind::Map(entries) => {
             for entry in entries {
                 texts(&mut entry.value, kind, visit);
             }

@@ -1,7 +1,7 @@
 //! Lists in one entry: several joints with one law, several surfaces in one contact, several things in one output.
 
 use super::{Expander, Node};
-use crate::description::tree::{Entry, Kind};
+use crate::description::tree::{Entry, NodeKind};
 
 /// The keys of `about` that stand for several rotations.
 const SEVERAL: [&str; 4] = ["xy", "xz", "yz", "xyz"];
@@ -48,7 +48,7 @@ impl Expander<'_> {
                 });
             }
         }
-        about.kind = Kind::Map(single);
+        about.kind = NodeKind::Map(single);
     }
 
     /// The outputs that one entry stands for, named after what they look at and the component they show.
@@ -93,7 +93,7 @@ fn directed(code: &str, component: &str) -> String {
 fn each(whole: &Node, key: &str) -> Vec<(Option<String>, Node)> {
     let list = whole
         .get(key)
-        .filter(|value| matches!(value.kind, Kind::List(_)));
+        .filter(|value| matches!(value.kind, NodeKind::List(_)));
     let Some(list) = list else {
         return vec![(None, whole.clone())];
     };

@@ -6,7 +6,7 @@
 //! joints](super::axes) are of both kinds.
 
 use super::{Expander, Node};
-use crate::description::tree::{Entry, Kind};
+use crate::description::tree::{Entry, NodeKind};
 use crate::diagnostic::quoted;
 
 /// How two sides correspond.
@@ -103,7 +103,7 @@ fn is_the_same(
 impl Expander<'_> {
     /// Writes out the elements with an image, and the start of each.
     pub fn mirror_systems(&mut self, systems: &mut Node) {
-        let Kind::List(systems) = &mut systems.kind else {
+        let NodeKind::List(systems) = &mut systems.kind else {
             return;
         };
         for system in systems {
@@ -130,7 +130,7 @@ impl Expander<'_> {
     }
 
     fn mirror_elements(&mut self, system: &str, elements: &mut Node) {
-        let Kind::List(items) = &mut elements.kind else {
+        let NodeKind::List(items) = &mut elements.kind else {
             return;
         };
         let mut flags = Vec::new();
@@ -174,7 +174,7 @@ impl Expander<'_> {
                 image.change("mesh", |n| self.mesh(n));
                 image.change("points", |n| Node {
                     span: n.span,
-                    kind: Kind::List(n.items().iter().map(|n| self.point(n)).collect()),
+                    kind: NodeKind::List(n.items().iter().map(|n| self.point(n)).collect()),
                 });
                 image.change("inertia", |n| self.tensor(n));
                 if let Some(anatomy) = image.get_mut("anatomy") {
@@ -214,14 +214,14 @@ impl Expander<'_> {
                 });
             }
         }
-        if let Kind::Map(entries) = &mut start.kind {
+        if let NodeKind::Map(entries) = &mut start.kind {
             *entries = all;
         }
     }
 
     /// Writes out the named surfaces with an image.
     pub fn mirror_surfaces(&mut self, surfaces: &mut Node) {
-        let Kind::Map(entries) = &mut surfaces.kind else {
+        let NodeKind::Map(entries) = &mut surfaces.kind else {
             return;
         };
         let mut all = Vec::new();
@@ -328,7 +328,7 @@ impl Expander<'_> {
     /// Mirrors each surface or point of a list.
     pub(crate) fn mirrored_list(&self, image: &mut Node, key: &str) {
         if let Some(list) = image.get_mut(key)
-            && let Kind::List(items) = &mut list.kind
+            && let NodeKind::List(items) = &mut list.kind
         {
             for item in items {
                 *item = self.mirrored_by_name(item);
@@ -473,7 +473,7 @@ impl Expander<'_> {
         };
         let both = |point: &Node| Node {
             span: point.span,
-            kind: Kind::List(point.items().iter().map(negated).collect()),
+            kind: NodeKind::List(point.items().iter().map(negated).collect()),
         };
         let images: Vec<Node> = points.items().iter().rev().map(both).collect();
         let same = |a: &Node, b: &Node| {
@@ -489,7 +489,7 @@ impl Expander<'_> {
             "points",
             Node {
                 span: points.span,
-                kind: Kind::List(images),
+                kind: NodeKind::List(images),
             },
         );
         if function.text().is_some() {
@@ -542,7 +542,7 @@ impl Expander<'_> {
         };
         Node {
             span: inertia.span,
-            kind: Kind::List(pairs.into_iter().zip(items).map(entry).collect()),
+            kind: NodeKind::List(pairs.into_iter().zip(items).map(entry).collect()),
         }
     }
 
@@ -555,14 +555,16 @@ impl Expander<'_> {
         };
         let list = |items: Vec<Node>| Node {
             span: mesh.span,
-            kind: Kind::List(items),
+            kind: NodeKind::List(items),
         };
         let mut image = match &mesh.kind {
-            Kind::List(items) => return list(items.iter().map(|item| self.mesh(item)).collect()),
-            Kind::Map(_) => mesh.clone(),
-            Kind::Scalar { .. } => Node {
+            NodeKind::List(items) => {
+                return list(items.iter().map(|item| self.mesh(item)).collect());
+            }
+            NodeKind::Map(_) => mesh.clone(),
+            NodeKind::Scalar { .. } => Node {
                 span: mesh.span,
-                kind: Kind::Map(vec![entry("file", mesh.clone())]),
+                kind: NodeKind::Map(vec![entry("file", mesh.clone())]),
             },
         };
         self.frame(&mut image);
@@ -590,8 +592,8 @@ impl Expander<'_> {
         frame.change("at", |n| self.polar(n));
         frame.change("angles", |n| match n.kind {
             // the one about y
-            Kind::Scalar { .. } if self.words.axis != 1 => negated(n),
-            Kind::Scalar { .. } => n.clone(),
+            NodeKind::Scalar { .. } if self.words.axis != 1 => negated(n),
+            NodeKind::Scalar { .. } => n.clone(),
             _ => self.three(n, |axis, mirror| axis != mirror),
         });
     }
@@ -605,14 +607,14 @@ impl Expander<'_> {
         });
         Node {
             span: list.span,
-            kind: Kind::List(numbers.collect()),
+            kind: NodeKind::List(numbers.collect()),
         }
     }
 
     /// A polar vector.
     pub(crate) fn polar(&self, vector: &Node) -> Node {
         match vector.kind {
-            Kind::List(_) => self.reversed(vector, |axis, mirror| axis == mirror, negated),
+            NodeKind::List(_) => self.reversed(vector, |axis, mirror| axis == mirror, negated),
             _ => vector.clone(),
         }
     }
@@ -626,9 +628,9 @@ impl Expander<'_> {
     pub(crate) fn negated_function(&self) -> impl Fn(&Node) -> Node + '_ {
         |function| {
             let is_curve = match &function.kind {
-                Kind::Scalar { text, .. } => self.known.curves.contains_key(text.trim()),
-                Kind::Map(_) => function.get("param").is_none(),
-                Kind::List(_) => false,
+                NodeKind::Scalar { text, .. } => self.known.curves.contains_key(text.trim()),
+                NodeKind::Map(_) => function.get("param").is_none(),
+                NodeKind::List(_) => false,
             };
             if !is_curve {
                 return negated(function);
@@ -637,7 +639,7 @@ impl Expander<'_> {
                 Some(_) => function.clone(),
                 None => Node {
                     span: function.span,
-                    kind: Kind::Map(vec![Entry {
+                    kind: NodeKind::Map(vec![Entry {
                         key: "curve".to_owned(),
                         span: function.span,
                         value: function.clone(),
@@ -659,7 +661,7 @@ impl Expander<'_> {
         negated: impl Fn(&Node) -> Node,
     ) -> Node {
         let mirror = self.words.axis;
-        let Kind::List(items) = &vector.kind else {
+        let NodeKind::List(items) = &vector.kind else {
             // one number, about y
             return match which(1, mirror) {
                 true => negated(vector),
@@ -677,7 +679,7 @@ impl Expander<'_> {
         };
         Node {
             span: vector.span,
-            kind: Kind::List(items.iter().enumerate().map(component).collect()),
+            kind: NodeKind::List(items.iter().enumerate().map(component).collect()),
         }
     }
 }
@@ -688,7 +690,7 @@ pub(super) fn negated(number: &Node) -> Node {
         return number.clone();
     }
     let text = match (&number.kind, number.get("param")) {
-        (Kind::Scalar { text, .. }, _) => text.trim(),
+        (NodeKind::Scalar { text, .. }, _) => text.trim(),
         (_, Some(name)) => {
             return Node::plain(format!("-{}", name.text().unwrap_or_default()), number.span);
         }

@@ -16,7 +16,7 @@ mod surface;
 use super::place::At;
 use super::shape::Problems;
 pub(crate) use super::tree::Node;
-use super::tree::{Entry, Kind, MAX_ENTRIES, Source, Span};
+use super::tree::{Entry, MAX_ENTRIES, NodeKind, Source, Span};
 use mirror::Words;
 use std::collections::{HashMap, HashSet};
 use surface::Surfaces;
@@ -79,7 +79,7 @@ impl Expander<'_> {
         items_of: impl Fn(&mut Self, Node) -> Vec<Node>,
     ) {
         let place = list.span;
-        let Kind::List(items) = &mut list.kind else {
+        let NodeKind::List(items) = &mut list.kind else {
             return;
         };
         let mut expanded = Vec::with_capacity(items.len());
@@ -141,7 +141,7 @@ impl Node {
     fn plain(text: impl Into<String>, span: Span) -> Node {
         Node {
             span,
-            kind: Kind::Scalar {
+            kind: NodeKind::Scalar {
                 text: text.into(),
                 plain: true,
             },
@@ -152,9 +152,9 @@ impl Node {
     pub fn with_text(&self, text: impl Into<String>) -> Node {
         Node {
             span: self.span,
-            kind: Kind::Scalar {
+            kind: NodeKind::Scalar {
                 text: text.into(),
-                plain: !matches!(self.kind, Kind::Scalar { plain: false, .. }),
+                plain: !matches!(self.kind, NodeKind::Scalar { plain: false, .. }),
             },
         }
     }
@@ -162,7 +162,7 @@ impl Node {
     /// The text of a scalar.
     pub fn text(&self) -> Option<&str> {
         match &self.kind {
-            Kind::Scalar { text, .. } => Some(text),
+            NodeKind::Scalar { text, .. } => Some(text),
             _ => None,
         }
     }
@@ -170,7 +170,7 @@ impl Node {
     /// The items of a list; none of anything else.
     pub fn items(&self) -> &[Node] {
         match &self.kind {
-            Kind::List(items) => items,
+            NodeKind::List(items) => items,
             _ => &[],
         }
     }
@@ -178,7 +178,7 @@ impl Node {
     /// The entries of a mapping; none of anything else.
     pub fn entries(&self) -> &[Entry] {
         match &self.kind {
-            Kind::Map(entries) => entries,
+            NodeKind::Map(entries) => entries,
             _ => &[],
         }
     }
@@ -191,7 +191,7 @@ impl Node {
     /// The value of a key, to be changed.
     pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
         match &mut self.kind {
-            Kind::Map(entries) => entries
+            NodeKind::Map(entries) => entries
                 .iter_mut()
                 .find(|e| e.key == key)
                 .map(|e| &mut e.value),
@@ -208,7 +208,7 @@ impl Node {
 
     /// Takes a key out.
     fn remove(&mut self, key: &str) -> Option<Node> {
-        let Kind::Map(entries) = &mut self.kind else {
+        let NodeKind::Map(entries) = &mut self.kind else {
             return None;
         };
         let index = entries.iter().position(|e| e.key == key)?;
@@ -219,7 +219,7 @@ impl Node {
     pub fn set(&mut self, key: &str, value: Node) {
         if let Some(old) = self.get_mut(key) {
             *old = value;
-        } else if let Kind::Map(entries) = &mut self.kind {
+        } else if let NodeKind::Map(entries) = &mut self.kind {
             entries.push(Entry {
                 key: key.to_owned(),
                 span: value.span,

@@ -1,7 +1,7 @@
 //! Named surfaces and groups of them: declared once, put into the contacts that name them.
 
 use super::{Expander, Node};
-use crate::description::tree::{Entry, Kind, MAX_ENTRIES, Span};
+use crate::description::tree::{Entry, MAX_ENTRIES, NodeKind, Span};
 use crate::diagnostic::{quoted, suggestion};
 use std::collections::{HashMap, HashSet};
 
@@ -178,12 +178,12 @@ impl Expander<'_> {
             };
             let name = value.text().unwrap_or_default();
             let list = match &value.kind {
-                Kind::List(items) => Some(self.members(items)),
-                Kind::Scalar { .. } => {
+                NodeKind::List(items) => Some(self.members(items)),
+                NodeKind::Scalar { .. } => {
                     let group = self.known.surfaces.groups.get(name);
                     group.map(|group| group.members.clone())
                 }
-                Kind::Map(_) => None,
+                NodeKind::Map(_) => None,
             };
             let surfaces = match &list {
                 None => vec![(None, value.clone())],
@@ -332,7 +332,7 @@ impl Expander<'_> {
             }
         }
         if let Some(list) = force.get("ellipsoid")
-            && let Kind::List(_) = list.kind
+            && let NodeKind::List(_) = list.kind
         {
             self.problem(
                 list.span,
@@ -340,7 +340,7 @@ impl Expander<'_> {
                 "name one; what it meets stands behind `against`",
             );
         }
-        let Some(Kind::List(items)) = force.get("against").map(|list| &list.kind) else {
+        let Some(NodeKind::List(items)) = force.get("against").map(|list| &list.kind) else {
             return;
         };
         let mut all = Vec::new();
@@ -356,7 +356,7 @@ impl Expander<'_> {
         }
         force.change("against", |list| Node {
             span: list.span,
-            kind: Kind::List(all),
+            kind: NodeKind::List(all),
         });
     }
 
@@ -388,9 +388,9 @@ impl Node {
     pub fn move_to(&mut self, span: Span) {
         self.span = span;
         match &mut self.kind {
-            Kind::Scalar { .. } => {}
-            Kind::List(items) => items.iter_mut().for_each(|item| item.move_to(span)),
-            Kind::Map(entries) => {
+            NodeKind::Scalar { .. } => {}
+            NodeKind::List(items) => items.iter_mut().for_each(|item| item.move_to(span)),
+            NodeKind::Map(entries) => {
                 for entry in entries {
                     entry.span = span;
                     entry.value.move_to(span);

@@ -1,7 +1,7 @@
 //! ∂v̇/∂q and ∂v̇/∂v: −S⁻¹ times the derivatives of τ at v̇.
 
 use super::loads::Loads;
-use super::{NotDifferentiable, Scene, Square, Way, cost, zeros};
+use super::{DerivativeInputs, NotDifferentiable, Square, Way, cost, zeros};
 use crate::dynamics::LARGEST_FACTORIZED;
 use crate::dynamics::factorization::{Branches, Ldl, outboard_first, triangle_of};
 use crate::expression::{Expr, Graph};
@@ -41,7 +41,7 @@ impl<'g> AccelerationDerivatives<'g> {
 /// # Errors
 /// As for [`inverse_dynamics_derivatives`](super::inverse_dynamics_derivatives).
 pub fn acceleration_derivatives<'g>(
-    scene: &Scene<'g, '_>,
+    scene: &DerivativeInputs<'g, '_>,
     forces: &[Expr<'g>],
 ) -> Result<AccelerationDerivatives<'g>, NotDifferentiable> {
     let fields = Loads::of_partial_fields(scene)?;
@@ -52,7 +52,7 @@ pub fn acceleration_derivatives<'g>(
 /// The results under the loads as well, whose derivatives count, and the derivatives of v̇ with respect to the other
 /// inputs of the loads. `needed` has for each of these inputs the change of τ at constant v̇.
 pub(super) fn under_loads<'g>(
-    scene: &Scene<'g, '_>,
+    scene: &DerivativeInputs<'g, '_>,
     forces: &[Expr<'g>],
     loads: &Loads<'g>,
     needed: &Needed<'g, '_>,
@@ -119,7 +119,7 @@ enum Solve {
 
 /// The results of a way.
 fn by_way<'g>(
-    scene: &Scene<'g, '_>,
+    scene: &DerivativeInputs<'g, '_>,
     way: &Way<'g>,
     rows: &[usize],
     (forces, loads, needed): (&[Expr<'g>], &Loads<'g>, &Needed<'g, '_>),

@@ -1,6 +1,6 @@
 //! Derivatives of τ by differentiation of the expressions of S and of r_s + r_f, entry by entry.
 
-use super::{Found, NotDifferentiable, Scene, zeros};
+use super::{DerivativeInputs, Found, NotDifferentiable, zeros};
 use crate::dynamics::spatial::Spatial;
 use crate::dynamics::{applied_forces, bias_forces, mass_matrix};
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
@@ -26,7 +26,7 @@ pub struct InGraph<'g> {
 }
 
 impl<'g> Terms<'g> {
-    pub fn of(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Self {
+    pub fn of(scene: &DerivativeInputs<'g, '_>, spatial: &Spatial<'g, '_>) -> Self {
         let (graph, layout) = (spatial.graph, spatial.layout);
         let (zero, size) = (graph.constant(0.0), layout.velocities.len());
         let rows = layout.system_velocities(spatial.system);
@@ -106,7 +106,10 @@ impl<'g> Terms<'g> {
 }
 
 impl<'g> InGraph<'g> {
-    pub fn of(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Result<Self, NotDifferentiable> {
+    pub fn of(
+        scene: &DerivativeInputs<'g, '_>,
+        spatial: &Spatial<'g, '_>,
+    ) -> Result<Self, NotDifferentiable> {
         let terms = Terms::of(scene, spatial);
         let roots = terms.roots();
         let mut along = Vec::new();

@@ -1,7 +1,7 @@
 //! ∂τ/∂q and ∂τ/∂v.
 
 use super::loads::Loads;
-use super::{Found, NotDifferentiable, Scene, Way, cost, zeros};
+use super::{DerivativeInputs, Found, NotDifferentiable, Way, cost, zeros};
 use crate::expression::Expr;
 
 /// τ \[N m or N\], its derivatives, and S, at the state of the scene and the given v̇ (rad/s² or m/s², in the order of v;
@@ -16,7 +16,7 @@ use crate::expression::Expr;
 /// Only for systems that link frames cannot describe: if S or r_s cannot be differentiated in symbols. No model is known
 /// for which this is so.
 pub fn inverse_dynamics_derivatives<'g>(
-    scene: &Scene<'g, '_>,
+    scene: &DerivativeInputs<'g, '_>,
     accelerations: &[Expr<'g>],
 ) -> Result<Found<'g>, NotDifferentiable> {
     let size = accelerations.len();

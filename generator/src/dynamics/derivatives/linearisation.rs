@@ -3,7 +3,7 @@
 use super::acceleration::under_loads;
 use super::graph::Terms;
 use super::loads::Loads;
-use super::{NotDifferentiable, Scene};
+use super::{DerivativeInputs, NotDifferentiable};
 use crate::dynamics::outputs;
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
 use crate::expression::{Expr, Node, NodeId, Symbol};
@@ -44,7 +44,7 @@ pub struct Linearisation<'g> {
 /// If a force or an output is a function of the user's, or has another function that cannot be differentiated in
 /// symbols. Dual numbers can.
 pub fn linearisation<'g>(
-    scene: &Scene<'g, '_>,
+    scene: &DerivativeInputs<'g, '_>,
     inputs: &[usize],
 ) -> Result<Linearisation<'g>, NotDifferentiable> {
     let (graph, size) = (scene.graph, scene.state.v.len());
@@ -71,7 +71,7 @@ pub fn linearisation<'g>(
     };
     let none = vec![graph.constant(0.0); size];
     let (of_v, of_others) = under_loads(scene, &none, &loads, &needed)?;
-    let outputs = outputs::outputs(&outputs::Scene {
+    let outputs = outputs::outputs(&outputs::ModelInMotion {
         graph,
         model: scene.model,
         layout: scene.layout,
@@ -162,7 +162,7 @@ fn known<'g>(values: &[Expr<'g>], derivatives: &[Expr<'g>]) -> Known<'g> {
 }
 
 /// ω × d in the rows of ball joints with quaternions.
-fn turns<'g>(scene: &Scene<'g, '_>, a: &mut Matrix<'g>) {
+fn turns<'g>(scene: &DerivativeInputs<'g, '_>, a: &mut Matrix<'g>) {
     let quaternions = scene.layout.quaternions();
     for spatial in scene.systems {
         for element in 0..spatial.of_system().elements.len() {

@@ -1,6 +1,6 @@
 //! The generalised forces of laws and their derivatives, by differentiation of their expressions.
 
-use super::{NotDifferentiable, Scene, Square, zeros};
+use super::{DerivativeInputs, NotDifferentiable, Square, zeros};
 use crate::dynamics::applied_forces;
 use crate::expression::differentiate::{Known, differentiate_almost_everywhere};
 use crate::expression::{Expr, Graph, NodeId, Symbol};
@@ -32,7 +32,7 @@ impl<'g> Loads<'g> {
     }
 
     /// The fields that only some elements of a system feel.
-    pub fn of_partial_fields(scene: &Scene<'g, '_>) -> Result<Self, NotDifferentiable> {
+    pub fn of_partial_fields(scene: &DerivativeInputs<'g, '_>) -> Result<Self, NotDifferentiable> {
         let (graph, size) = (scene.graph, scene.state.v.len());
         let fields = &scene.applied.wrenches.partial_fields;
         if fields.iter().flatten().all(|field| field.is_zero()) {
@@ -42,13 +42,16 @@ impl<'g> Loads<'g> {
     }
 
     /// All laws but fields that a whole system feels, with their derivatives with respect to other inputs.
-    pub fn of_laws(scene: &Scene<'g, '_>, others: &[Symbol]) -> Result<Self, NotDifferentiable> {
+    pub fn of_laws(
+        scene: &DerivativeInputs<'g, '_>,
+        others: &[Symbol],
+    ) -> Result<Self, NotDifferentiable> {
         Loads::of(scene, scene.applied, others)
     }
 
     /// The forces of wrenches, with a field that no system feels.
     fn of(
-        scene: &Scene<'g, '_>,
+        scene: &DerivativeInputs<'g, '_>,
         applied: &AppliedForces<'g>,
         others: &[Symbol],
     ) -> Result<Self, NotDifferentiable> {
@@ -82,7 +85,7 @@ impl<'g> Loads<'g> {
     }
 }
 
-impl<'g> Scene<'g, '_> {
+impl<'g> DerivativeInputs<'g, '_> {
     /// The derivatives of values along the motion of velocity `j`, and with respect to it. The derivatives of some nodes
     /// along both are known.
     pub(super) fn along(
@@ -123,14 +126,14 @@ impl<'g> Scene<'g, '_> {
 }
 
 /// r \[N m or N, in the order of v\]: the generalised forces of all laws but fields.
-pub fn of_laws_but_fields<'g>(scene: &Scene<'g, '_>) -> Vec<Expr<'g>> {
+pub fn of_laws_but_fields<'g>(scene: &DerivativeInputs<'g, '_>) -> Vec<Expr<'g>> {
     let laws = generalised(scene, scene.applied).into_iter();
     let fields = generalised(scene, &partial_fields(scene));
     laws.zip(fields).map(|(all, field)| all - field).collect()
 }
 
 /// The generalised forces of wrenches alone, whatever the reference joints do.
-fn generalised<'g>(scene: &Scene<'g, '_>, applied: &AppliedForces<'g>) -> Vec<Expr<'g>> {
+fn generalised<'g>(scene: &DerivativeInputs<'g, '_>, applied: &AppliedForces<'g>) -> Vec<Expr<'g>> {
     let graph = scene.graph;
     let mut wrenches = Wrenches::none(graph, scene.model);
     wrenches.elements.clone_from(&applied.wrenches.elements);
@@ -147,7 +150,7 @@ fn generalised<'g>(scene: &Scene<'g, '_>, applied: &AppliedForces<'g>) -> Vec<Ex
 }
 
 /// The forces of fields that only some elements of a system feel.
-fn partial_fields<'g>(scene: &Scene<'g, '_>) -> AppliedForces<'g> {
+fn partial_fields<'g>(scene: &DerivativeInputs<'g, '_>) -> AppliedForces<'g> {
     let fields = &scene.applied.wrenches.partial_fields;
     let wrenches = Wrenches::of_partial_fields(scene.graph, scene.model, scene.motion, fields);
     AppliedForces::of_wrenches(scene.model, wrenches)

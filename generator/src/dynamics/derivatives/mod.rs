@@ -44,7 +44,7 @@ pub use crate::expression::differentiate::NotDifferentiable;
 
 /// All that derivatives are made from.
 #[derive(Clone, Copy)]
-pub struct Scene<'g, 'a> {
+pub struct DerivativeInputs<'g, 'a> {
     /// The graph of the expressions.
     pub graph: &'g Graph,
     /// The model.
@@ -72,7 +72,7 @@ enum Way<'g> {
 impl<'g> Way<'g> {
     /// All ways for a system that are worth a comparison.
     fn all(
-        scene: &Scene<'g, '_>,
+        scene: &DerivativeInputs<'g, '_>,
         spatial: &Spatial<'g, '_>,
     ) -> Result<Vec<Self>, NotDifferentiable> {
         let mut found: Vec<Self> = ways(spatial, scene.applied)

@@ -9,9 +9,9 @@ use crate::expression::Expr;
 use crate::model::Model;
 
 impl<'g> Known<'g, '_> {
-    fn of_derivatives(&self) -> derivatives::Scene<'g, '_> {
+    fn of_derivatives(&self) -> derivatives::DerivativeInputs<'g, '_> {
         let scene = self.scene;
-        derivatives::Scene {
+        derivatives::DerivativeInputs {
             graph: scene.graph,
             model: scene.model,
             layout: scene.layout,

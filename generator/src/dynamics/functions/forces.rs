@@ -2,7 +2,7 @@
 
 use super::Known;
 use crate::dynamics::matrices::{Matrices, with_axes};
-use crate::dynamics::outputs::Scene;
+use crate::dynamics::outputs::ModelInMotion;
 use crate::dynamics::{link, spatial};
 use crate::expression::Expr;
 use crate::force::{AppliedForces, Wrenches};
@@ -32,7 +32,7 @@ pub fn bias<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 pub fn gravity_forces<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
-    let Scene { graph, layout, .. } = *known.scene;
+    let ModelInMotion { graph, layout, .. } = *known.scene;
     let fields = fields(known.scene);
     Matrices::of(graph, layout, known.systems, &fields, true).applied_forces
 }
@@ -42,8 +42,8 @@ pub fn applied_forces<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 /// The fields of a scene without its other forces.
-fn fields<'g>(scene: &Scene<'g, '_>) -> AppliedForces<'g> {
-    let Scene { graph, model, .. } = *scene;
+fn fields<'g>(scene: &ModelInMotion<'g, '_>) -> AppliedForces<'g> {
+    let ModelInMotion { graph, model, .. } = *scene;
     let given = &scene.applied.wrenches;
     let partial = &given.partial_fields;
     let wrenches = Wrenches {

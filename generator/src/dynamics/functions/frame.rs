@@ -1,7 +1,7 @@
 //! Pose, velocity, acceleration and Jacobian of a frame. Vectors are in absolute axes, linear parts come first.
 
 use super::{Frame, Known};
-use crate::dynamics::outputs::Scene;
+use crate::dynamics::outputs::ModelInMotion;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
 use crate::model::Body;
@@ -41,7 +41,7 @@ fn accelerated<'g>(
     frame: &Frame,
     accelerations: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    let scene = Scene {
+    let scene = ModelInMotion {
         accelerations,
         ..*known.scene
     };
@@ -54,7 +54,7 @@ fn accelerated<'g>(
 /// The columns (s + e × r, e) of the velocities on the path from the frame to the reference joint. Where the path passes
 /// a ball joint, what is inboard of it moves its place and does not turn the frame.
 pub fn jacobian<'g>(known: &Known<'g, '_>, frame: &Frame) -> Vec<Expr<'g>> {
-    let Scene { graph, layout, .. } = *known.scene;
+    let ModelInMotion { graph, layout, .. } = *known.scene;
     let none = Vec3::zero(graph);
     let mut columns = vec![[none; 2]; known.size()];
     if let Body::Element(id) = frame.body {

@@ -31,7 +31,7 @@ pub use request::{Frame, Request, request, requests};
 
 use super::derivatives::NotDifferentiable;
 use super::matrices::Matrices;
-use super::outputs::Scene;
+use super::outputs::ModelInMotion;
 use super::spatial::Spatial;
 use crate::equations;
 use crate::expression::{Expr, Symbol};
@@ -294,7 +294,7 @@ fn rotation_and_origin(_: &Known<'_, '_>) -> Vec<String> {
 
 /// What functions are derived from.
 pub(super) struct Known<'g, 'a> {
-    scene: &'a Scene<'g, 'a>,
+    scene: &'a ModelInMotion<'g, 'a>,
     state: &'a State<'g>,
     systems: &'a [Spatial<'g, 'a>],
     /// S, r_s and r_k if they are derived already.
@@ -306,7 +306,7 @@ pub(super) struct Known<'g, 'a> {
 
 impl<'g, 'a> Known<'g, 'a> {
     pub fn new(
-        scene: &'a Scene<'g, 'a>,
+        scene: &'a ModelInMotion<'g, 'a>,
         state: &'a State<'g>,
         systems: &'a [Spatial<'g, 'a>],
         derived: Option<&'a Matrices<'g>>,
@@ -361,7 +361,7 @@ impl<'g, 'a> Known<'g, 'a> {
 
     /// S, r_s and r_k.
     fn matrices(&self) -> &Matrices<'g> {
-        let Scene {
+        let ModelInMotion {
             graph,
             layout,
             applied,

@@ -11,7 +11,7 @@
 //! | J | 0 | J α + ω × J ω |
 
 use super::Known;
-use crate::dynamics::outputs::Scene;
+use crate::dynamics::outputs::ModelInMotion;
 use crate::dynamics::spatial::{Spatial, Wrench};
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;
@@ -21,7 +21,7 @@ use crate::model::{Body, ElementId};
 const INERTIA: [[usize; 2]; 6] = [[0, 0], [0, 1], [1, 1], [0, 2], [1, 2], [2, 2]];
 
 pub fn regressor<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
-    let scene = Scene {
+    let scene = ModelInMotion {
         accelerations: &known.given,
         ..*known.scene
     };
@@ -42,7 +42,7 @@ pub fn regressor<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 /// The wrench that each parameter of an element needs.
-fn wrenches<'g>(scene: &Scene<'g, '_>, id: ElementId) -> Vec<Wrench<'g>> {
+fn wrenches<'g>(scene: &ModelInMotion<'g, '_>, id: ElementId) -> Vec<Wrench<'g>> {
     let graph = scene.graph;
     let (none, body) = (Vec3::zero(graph), Body::Element(id));
     let motion = scene.motion.element(id);

@@ -9,7 +9,7 @@ use super::Known;
 use super::frame::{both, by_rows};
 use crate::dynamics::augmented::{rotated, with_points};
 use crate::dynamics::energy;
-use crate::dynamics::outputs::Scene;
+use crate::dynamics::outputs::ModelInMotion;
 use crate::dynamics::spatial::Spatial;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, sum};
@@ -64,7 +64,7 @@ pub fn centroidal_momentum<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
 }
 
 pub fn centroidal_matrix<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
-    let Scene { graph, layout, .. } = *known.scene;
+    let ModelInMotion { graph, layout, .. } = *known.scene;
     let (none, all) = (Vec3::zero(graph), center_of_all(known.scene));
     let mut columns = vec![[none; 2]; known.size()];
     for spatial in known.systems {
@@ -113,7 +113,7 @@ struct Composite<'g> {
     carried: Vec<(Vec3<'g>, Vec3<'g>)>,
 }
 
-fn composites<'g>(scene: &Scene<'g, '_>, spatial: &Spatial<'g, '_>) -> Vec<Composite<'g>> {
+fn composites<'g>(scene: &ModelInMotion<'g, '_>, spatial: &Spatial<'g, '_>) -> Vec<Composite<'g>> {
     let graph = scene.graph;
     let zero = graph.constant(0.0);
     let bodies = bodies(scene, spatial.system).into_iter().enumerate();
@@ -174,7 +174,7 @@ fn moved<'g>(first: Vec3<'g>, mass: Expr<'g>, u: Vec3<'g>) -> Sym3<'g> {
     })
 }
 
-fn elements<'a>(scene: &Scene<'_, 'a>) -> impl Iterator<Item = (ElementId, &'a Element)> {
+fn elements<'a>(scene: &ModelInMotion<'_, 'a>) -> impl Iterator<Item = (ElementId, &'a Element)> {
     let systems = scene.model.systems.iter().enumerate();
     systems.flat_map(|(system, of)| {
         let elements = of.elements.iter().enumerate();
@@ -183,13 +183,13 @@ fn elements<'a>(scene: &Scene<'_, 'a>) -> impl Iterator<Item = (ElementId, &'a E
 }
 
 /// The centre of gravity of an element.
-fn center<'g>(scene: &Scene<'g, '_>, id: ElementId, element: &Element) -> Vec3<'g> {
+fn center<'g>(scene: &ModelInMotion<'g, '_>, id: ElementId, element: &Element) -> Vec3<'g> {
     let motion = scene.motion.element(id);
     motion.position + motion.rotation.times(vector(scene.graph, &element.cg))
 }
 
 /// The centre of mass of all systems.
-fn center_of_all<'g>(scene: &Scene<'g, '_>) -> Vec3<'g> {
+fn center_of_all<'g>(scene: &ModelInMotion<'g, '_>) -> Vec3<'g> {
     let graph = scene.graph;
     let (mut mass, mut moment) = (graph.constant(0.0), Vec3::zero(graph));
     for (s, _) in scene.model.systems.iter().enumerate() {
@@ -211,8 +211,8 @@ struct Rigid<'g> {
 }
 
 /// The body of each element of a system, with all that is welded to it; `None` for what is welded to another.
-fn bodies<'g>(scene: &Scene<'g, '_>, system: usize) -> Vec<Option<Rigid<'g>>> {
-    let Scene { graph, model, .. } = *scene;
+fn bodies<'g>(scene: &ModelInMotion<'g, '_>, system: usize) -> Vec<Option<Rigid<'g>>> {
+    let ModelInMotion { graph, model, .. } = *scene;
     let elements = &model.systems[system].elements;
     let none = Vec3::zero(graph);
     let mut bodies: Vec<Option<Rigid<'g>>> = Vec::new();

@@ -104,34 +104,34 @@ impl<'g> Body<'g> {
     }
 
     /// The part of the body that does not resist the motion of its joint.
-    pub fn unfelt(&self, joint: &LinkJoint<'g>) -> Self {
+    pub fn not_resisting(&self, joint: &LinkJoint<'g>) -> Self {
         let graph = self.mass.graph();
-        let mut unfelt = Body::none(graph);
+        let mut part = Body::none(graph);
         match joint {
-            LinkJoint::Ball { .. } => unfelt.mass = self.mass,
+            LinkJoint::Ball { .. } => part.mass = self.mass,
             LinkJoint::Axis { axis, .. } if joint.is_hinge() => {
                 let along = weighted(*axis, self.first.0);
                 let spread = weighted(*axis, in_axes_of(&self.second, *axis).0);
-                unfelt.mass = self.mass;
-                unfelt.first = Vec3(axis.map(|a| a * along));
-                unfelt.second = Sym3::from_fn(|i, j| (axis[i] * axis[j]) * spread);
+                part.mass = self.mass;
+                part.first = Vec3(axis.map(|a| a * along));
+                part.second = Sym3::from_fn(|i, j| (axis[i] * axis[j]) * spread);
             }
-            LinkJoint::Axis { .. } if joint.slides_alone() => unfelt.second = self.second,
+            LinkJoint::Axis { .. } if joint.slides_alone() => part.second = self.second,
             LinkJoint::Axis { .. } => {}
         }
-        unfelt
+        part
     }
 
-    /// The body after regrouping, without entries that are only rounding; entries that a hinge about z does not feel
-    /// are set to exactly 0.
-    pub fn felt(&self, joint: &LinkJoint<'g>) -> Self {
+    /// The body after regrouping, without entries that are only rounding; entries that do not resist a hinge
+    /// about z are set to exactly 0.
+    pub fn regrouped(&self, joint: &LinkJoint<'g>) -> Self {
         let zero = self.mass.graph().constant(0.0);
-        let mut felt = *self;
+        let mut body = *self;
         if joint.is_hinge() {
-            felt.first.0[2] = zero;
-            felt.second.diagonal[2] = zero;
+            body.first.0[2] = zero;
+            body.second.diagonal[2] = zero;
         }
-        felt.cleaned()
+        body.cleaned()
     }
 
     /// The body without values that are only rounding.
@@ -261,16 +261,16 @@ impl Numbers {
         self.combined(other, |a, b| a - b)
     }
 
-    /// The part of a body that a hinge about z does not feel.
-    pub fn unfelt_about_z(&self) -> Self {
-        let mut unfelt = Self::point(self.mass);
-        unfelt.first[2] = self.first[2];
-        unfelt.second[2][2] = self.second[2][2];
-        unfelt
+    /// The part of a body that does not resist a hinge about z.
+    pub fn not_resisting_about_z(&self) -> Self {
+        let mut part = Self::point(self.mass);
+        part.first[2] = self.first[2];
+        part.second[2][2] = self.second[2][2];
+        part
     }
 
-    /// See [`Body::felt`]; the axis of a hinge is z.
-    pub fn felt(mut self, of_hinge: bool) -> Self {
+    /// See [`Body::regrouped`]; the axis of a hinge is z.
+    pub fn regrouped(mut self, of_hinge: bool) -> Self {
         if of_hinge {
             self.first[2] = 0.0;
             self.second[2][2] = 0.0;

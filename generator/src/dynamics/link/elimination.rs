@@ -17,7 +17,7 @@ use super::articulated::{Articulated, invariant};
 use super::axis::Axis;
 use super::frames::{Choice, Framed, FramedLink};
 use super::motion::{LinkMotion, Reference, motion, steps};
-use super::shared::{Shared, Velocity, heads};
+use super::shared::{Shared, Velocity, elimination_links};
 use super::tree::{Carried, Link, Tree};
 use super::turn::back_through;
 use super::wrench::Written;
@@ -58,7 +58,7 @@ pub struct Solved<'g> {
 }
 
 /// A shared velocity that is eliminated at a certain link.
-struct Head<'g> {
+struct SharedElimination<'g> {
     /// True if the joint of the link itself has a share of the velocity.
     own: bool,
     velocity: Velocity<'g>,
@@ -71,7 +71,7 @@ struct Head<'g> {
 struct Inwards<'g> {
     eliminated: Vec<Eliminated<'g>>,
     /// For each link, the shared velocities that are eliminated there.
-    heads: Vec<Vec<Head<'g>>>,
+    shared: Vec<Vec<SharedElimination<'g>>>,
     outboard: Vec<Articulated<'g>>,
 }
 
@@ -82,7 +82,7 @@ struct Passed<'g> {
     what: Articulated<'g>,
 }
 
-/// The accelerations of all links. Each shared velocity must be eliminated at one of the [heads].
+/// The accelerations of all links. Each shared velocity must be eliminated at one of the [links](elimination_links).
 pub fn accelerations<'g>(
     tree: &Tree<'g>,
     framed: &Framed<'g>,
@@ -118,7 +118,7 @@ fn inwards<'g>(
             own(tree, framed, choice, &motions[k], k)
         })
         .collect();
-    let heads = heads(tree).unwrap_or_default();
+    let elimination_links = elimination_links(tree).unwrap_or_default();
     let mut waiting: Vec<Vec<Passed<'g>>> = vec![Vec::new(); tree.links.len()];
     let mut shared: Vec<Shared<'g>> = vec![Shared::default(); tree.links.len()];
     let (mut eliminated, mut ended) = (Vec::new(), Vec::new());
@@ -137,7 +137,7 @@ fn inwards<'g>(
         let (done, mut rest, here) = joint(
             &written,
             (k, &motions[k]),
-            &heads,
+            &elimination_links,
             &mut outboard[k],
             &mut velocities,
         );
@@ -162,7 +162,7 @@ fn inwards<'g>(
     ended.reverse();
     Inwards {
         eliminated,
-        heads: ended,
+        shared: ended,
         outboard,
     }
 }
@@ -172,17 +172,17 @@ fn inwards<'g>(
 fn joint<'g>(
     written: &Written<'g, '_>,
     (k, motion): (usize, &LinkMotion<'g>),
-    heads: &[(usize, usize)],
+    elimination_links: &[(usize, usize)],
     outboard: &mut Articulated<'g>,
     velocities: &mut Shared<'g>,
-) -> (Eliminated<'g>, Articulated<'g>, Vec<Head<'g>>) {
+) -> (Eliminated<'g>, Articulated<'g>, Vec<SharedElimination<'g>>) {
     let (link, chosen) = (&written.tree.links[k], &written.choice.links[k]);
     let own_row = link.joint.is_coupled().then_some(link.row);
-    let others = heads
+    let others = elimination_links
         .iter()
-        .filter(|(row, head)| *head == k && Some(*row) != own_row);
+        .filter(|(row, link)| *link == k && Some(*row) != own_row);
     let others = others.filter_map(|(row, _)| end(outboard, velocities, *row, false));
-    let mut here: Vec<Head<'g>> = others.collect();
+    let mut here: Vec<SharedElimination<'g>> = others.collect();
     if link.parent.is_none() && written.tree.free {
         return (Eliminated::Base, *outboard, here);
     }
@@ -196,7 +196,7 @@ fn joint<'g>(
     if own_row.is_some() {
         let share = written.scaled_share(k);
         velocities.add(share, axis.velocity(link.row), &powers);
-        if heads.contains(&(link.row, k)) {
+        if elimination_links.contains(&(link.row, k)) {
             here.extend(end(outboard, velocities, link.row, true));
         }
         let done = Eliminated::Share {
@@ -220,7 +220,7 @@ fn end<'g>(
     velocities: &mut Shared<'g>,
     row: usize,
     own: bool,
-) -> Option<Head<'g>> {
+) -> Option<SharedElimination<'g>> {
     let (velocity, crossing) = velocities.take(row)?;
     let inverse = velocity.whole.recip();
     let needed = &velocity.needed;
@@ -230,7 +230,7 @@ fn end<'g>(
     };
     *outboard = outboard.less(needed, &gain, inverse, velocity.left, true);
     velocities.eliminate(needed, (inverse, velocity.left), &crossing);
-    Some(Head {
+    Some(SharedElimination {
         own,
         velocity,
         inverse,
@@ -238,7 +238,7 @@ fn end<'g>(
     })
 }
 
-impl<'g> Head<'g> {
+impl<'g> SharedElimination<'g> {
     /// v̇_r, given the accelerations of the link and the shared velocities that are already known.
     fn rate(&self, a: Vec3<'g>, alpha: Vec3<'g>, known: &FxHashMap<usize, Expr<'g>>) -> Expr<'g> {
         let Velocity { needed, left, .. } = &self.velocity;
@@ -340,7 +340,7 @@ impl<'g> Outwards<'_, 'g> {
                 result.rotation = absolute(alpha);
             }
             Eliminated::Axis(axis, gains) => {
-                a = self.slid(k, a, alpha);
+                a = self.origin_acceleration(k, a, alpha);
                 if link.joint.is_absolute() {
                     alpha = none;
                 }
@@ -361,9 +361,9 @@ impl<'g> Outwards<'_, 'g> {
                 share,
                 row,
             } => {
-                a = self.slid(k, a, alpha);
-                let own = self.inwards.heads[k].iter().filter(|head| head.own);
-                self.know(own, a, alpha);
+                a = self.origin_acceleration(k, a, alpha);
+                let own = self.inwards.shared[k].iter().filter(|one| one.own);
+                self.compute_rates(own, a, alpha);
                 if let Some(&rate) = self.known.get(row) {
                     alpha = plus_along(alpha, *turn * (*share * rate));
                     a = plus_along(a, *slide * (*share * rate));
@@ -372,8 +372,8 @@ impl<'g> Outwards<'_, 'g> {
             }
         }
         // the shared velocities of which the joint of this link has no share; the one eliminated last comes first
-        let others = self.inwards.heads[k].iter().filter(|head| !head.own);
-        self.know(others.rev(), a, alpha);
+        let others = self.inwards.shared[k].iter().filter(|one| !one.own);
+        self.compute_rates(others.rev(), a, alpha);
         self.moves.push((a, alpha));
         result
     }
@@ -402,19 +402,23 @@ impl<'g> Outwards<'_, 'g> {
     }
 
     /// The acceleration of the origin at the place to which a slider has moved it.
-    fn slid(&self, k: usize, a: Vec3<'g>, alpha: Vec3<'g>) -> Vec3<'g> {
+    fn origin_acceleration(&self, k: usize, a: Vec3<'g>, alpha: Vec3<'g>) -> Vec3<'g> {
         let along = self.written.along(k);
         along.map_or(a, |along| a + alpha.cross(along))
     }
 
     /// Computes the rates of shared velocities, in this order.
-    fn know<'h>(&mut self, heads: impl Iterator<Item = &'h Head<'g>>, a: Vec3<'g>, alpha: Vec3<'g>)
-    where
+    fn compute_rates<'h>(
+        &mut self,
+        shared: impl Iterator<Item = &'h SharedElimination<'g>>,
+        a: Vec3<'g>,
+        alpha: Vec3<'g>,
+    ) where
         'g: 'h,
     {
-        for head in heads {
-            let rate = head.rate(a, alpha, &self.known);
-            self.known.insert(head.velocity.row, rate);
+        for one in shared {
+            let rate = one.rate(a, alpha, &self.known);
+            self.known.insert(one.velocity.row, rate);
         }
     }
 }

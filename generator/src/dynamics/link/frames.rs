@@ -430,7 +430,7 @@ impl<'g> Framing<'_, 'g> {
         let body = link.body.moved(-origin(k));
         let mut body = body.in_axes(&transpose(&self.axes[k]));
         if !(k == 0 && tree.free) {
-            body = body.felt(&link.joint);
+            body = body.regrouped(&link.joint);
         }
         let body = Body {
             mass: (unit * unit) * body.mass,
@@ -455,7 +455,7 @@ impl<'g> Framing<'_, 'g> {
         let body = Numbers::of(&link.body)?.moved(own.map(|a| -a));
         let mut body = body.in_axes(&transpose(&self.axes[k]));
         if !(k == 0 && tree.free) {
-            body = body.felt(link.joint.is_hinge());
+            body = body.regrouped(link.joint.is_hinge());
         }
         let body = body.in_unit(unit).body(graph);
         Some((body, Vec3(place.map(|r| graph.constant(r)))))

@@ -122,12 +122,12 @@ impl Keeper<'_, '_> {
                 self.set(link, rest, before);
                 return Some(mass);
             }
-            let unfelt = rest.unfelt_about_z();
-            self.set(link, rest.minus(&unfelt).felt(true), before);
+            let passive = rest.not_resisting_about_z();
+            self.set(link, rest.minus(&passive).regrouped(true), before);
             match tree.links[link].parent {
                 Some(parent) if parent > 0 || tree.carrier.is_none() => {
                     let place = numbers(links[link].place)?;
-                    let passed = unfelt.in_axes(&links[link].against).moved(place);
+                    let passed = passive.in_axes(&links[link].against).moved(place);
                     // a body that is not in numbers has no size for the comparison
                     rest = self.numbers[parent]?.plus(&passed);
                     link = parent;

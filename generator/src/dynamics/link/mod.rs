@@ -55,13 +55,13 @@ use search::Aim;
 use tree::{LinkJoint, Tree};
 use wrench::Written;
 
-/// v̇ of the system by row, without S; `None` if link frames cannot be used ([`Tree::of`], [`shared::heads`]).
+/// v̇ of the system by row, without S; `None` if link frames cannot be used ([`Tree::of`], [`shared::elimination_links`]).
 pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
 ) -> Option<Vec<(usize, Expr<'g>)>> {
     let tree = Tree::of(spatial, Some(applied))?;
-    shared::heads(&tree)?;
+    shared::elimination_links(&tree)?;
     let choice = search::choice(&tree, Aim::Elimination);
     let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
     let name = |link: &tree::Link<'g>| spatial.label(link.element);

@@ -36,10 +36,10 @@ pub struct Velocity<'g> {
 
 /// For each shared velocity, its row and the link where it is eliminated. `None` if no link carries all links of a
 /// velocity, or if a ball is between them.
-pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
-    let mut heads: Vec<(usize, usize)> = Vec::new();
+pub fn elimination_links(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
+    let mut found: Vec<(usize, usize)> = Vec::new();
     for (k, link) in tree.links.iter().enumerate() {
-        if !link.joint.is_coupled() || heads.iter().any(|(row, _)| *row == link.row) {
+        if !link.joint.is_coupled() || found.iter().any(|(row, _)| *row == link.row) {
             continue;
         }
         let same = (k..tree.links.len()).filter(|&l| {
@@ -58,9 +58,9 @@ pub fn heads(tree: &Tree<'_>) -> Option<Vec<(usize, usize)>> {
             members.sort_unstable();
             members.dedup();
         }
-        heads.push((link.row, members[0]));
+        found.push((link.row, members[0]));
     }
-    Some(heads)
+    Some(found)
 }
 
 impl<'g> Shared<'g> {

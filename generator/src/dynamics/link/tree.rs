@@ -415,7 +415,7 @@ impl<'g> Tree<'g> {
             if link.parent.is_none() && self.free {
                 continue;
             }
-            let passed = link.body.unfelt(&link.joint);
+            let passed = link.body.not_resisting(&link.joint);
             let (parent, place) = (link.parent, link.place);
             let moved = match link.joint.slides_alone() {
                 // Σ without mass and first moment is the same about every origin

@@ -320,7 +320,7 @@ impl Joint {
 
 impl Keys for Joint {
     const KEY: &'static str = "joint";
-    const TWICE: Option<&'static str> =
+    const SAME_NAME_ADVICE: Option<&'static str> =
         Some("give one of them a name: `name: broken`; it then is `joint SYSTEM/ELEMENT/broken`");
 
     fn header<'v>(&'v self, value: &'v Value) -> Header<'v> {

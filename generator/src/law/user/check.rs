@@ -19,7 +19,7 @@ use crate::model::resolve::joint::freedom_named;
 use crate::model::resolve::name::{Style, identifier};
 use crate::model::resolve::quantity::Measure;
 use crate::model::resolve::run::time;
-use crate::model::resolve::rust::{self, Fault, Place, Wanted};
+use crate::model::resolve::rust::{self, Fault, FaultPlace, Wanted};
 use crate::model::{Attachment, Body, Dimension, ElementId, FieldComponent, Number, ScaledCurve};
 use serde::Serialize;
 use std::path::{Component, Path, PathBuf};
@@ -634,14 +634,14 @@ fn check_user_source(resolver: &Resolver<'_>, written: &Written, user: &User, at
             Some(at.key(kind).key(names.get(index)?))
         };
         resolver.problems.add(match place {
-            Place::File(line, column, length) => {
+            FaultPlace::File(line, column, length) => {
                 Diagnostic::at(&file, text, (line, column, length), message, help)
             }
-            Place::Function if written.function.is_some() => {
+            FaultPlace::Function if written.function.is_some() => {
                 at.key("function").problem(message, help)
             }
-            Place::Function => at.key("source").problem(message, help),
-            Place::Name(kind, index) => {
+            FaultPlace::Function => at.key("source").problem(message, help),
+            FaultPlace::Name(kind, index) => {
                 let at = entry(kind, index).unwrap_or(at);
                 at.key_problem(message, help)
             }

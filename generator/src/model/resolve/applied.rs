@@ -32,7 +32,7 @@ pub(crate) fn force(
         resolver.check_name(name, keys.title, Style::Either, at.key(key))
     });
     if called {
-        check_twice(resolver, name, keys, at.key(key));
+        check_name(resolver, name, keys, at.key(key));
     }
     resolver.owner = format!("{key} {name}");
     resolver.owners.push(resolver.owner.clone());
@@ -58,14 +58,14 @@ pub(crate) fn force(
 }
 
 /// Reports a force with the same name as another of the same law.
-fn check_twice(resolver: &Resolver<'_>, name: &str, law: &LawKeys, place: At<'_>) {
+fn check_name(resolver: &Resolver<'_>, name: &str, law: &LawKeys, place: At<'_>) {
     let same = resolver.forces.iter().filter(|f| f.law.key() == law.key);
     let off = resolver.disabled.iter().filter(|(key, _)| *key == law.key);
     let mut earlier = same
         .map(|f| f.name.as_str())
         .chain(off.map(|(_, name)| name.as_str()));
     let all = law.called();
-    match law.twice {
+    match law.same_name_advice {
         Some(help) if earlier.any(|other| other == name) => {
             let message = format!("there are two {all}s {}", quoted(name));
             resolver.problems.add(place.problem(message, help));

@@ -84,13 +84,13 @@ impl Resolver<'_> {
             Some(WrittenInterpolate::Cubic) => Interpolate::Cubic,
             Some(WrittenInterpolate::Linear) | None => Interpolate::Linear,
         };
-        let told = written.extrapolate.is_some();
+        let states_extrapolation = written.extrapolate.is_some();
         let curve = Curve {
             name,
             points,
             interpolate,
             extrapolate,
-            told,
+            states_extrapolation,
             thinned: None,
         };
         if self.problems.count() == before && !curve.is_finite() {
@@ -618,7 +618,7 @@ impl Resolver<'_> {
                 points: vec![[0.0, from], [1.0, to]],
                 interpolate: Interpolate::Linear,
                 extrapolate,
-                told: true,
+                states_extrapolation: true,
                 thinned: None,
             },
             measures: [Measure::Bare; 2],

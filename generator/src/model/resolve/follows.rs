@@ -17,7 +17,7 @@ use crate::model::{Freedom, Joint};
 use std::collections::BTreeMap;
 
 /// A degree of freedom: its element, and its index in the joint of the element.
-type Place = (usize, usize);
+type FreedomIndex = (usize, usize);
 
 /// Couples the degrees of freedom of a system, given the joints as written, by element.
 pub(crate) fn couple(
@@ -26,7 +26,7 @@ pub(crate) fn couple(
     joints: &[(Option<&WrittenJoint>, At<'_>)],
     elements: &mut [Element],
 ) {
-    let mut coupled: BTreeMap<Place, (Follows, At<'_>)> = BTreeMap::new();
+    let mut coupled: BTreeMap<FreedomIndex, (Follows, At<'_>)> = BTreeMap::new();
     for (k, (joint, at)) in joints.iter().enumerate() {
         let Some(joint) = joint else { continue };
         let mut first = 0;
@@ -80,7 +80,7 @@ fn leader(
     system: &str,
     written: &Written,
     at: At<'_>,
-    (element, freedom): Place,
+    (element, freedom): FreedomIndex,
     elements: &[Element],
 ) -> Option<Follows> {
     let Some(leader) = elements.iter().position(|e| e.name == written.joint) else {

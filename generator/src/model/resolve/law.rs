@@ -26,7 +26,7 @@ pub trait Keys: Record {
     const HAS_PORTS: bool = false;
 
     /// Advice for two forces with the same name, in place of renaming one of them.
-    const TWICE: Option<&'static str> = None;
+    const SAME_NAME_ADVICE: Option<&'static str> = None;
 
     /// The key of a Rust file that belongs to a force.
     const SOURCE: Option<&'static str> = None;
@@ -102,7 +102,7 @@ impl Registered {
                 schema: K::schema,
                 records: K::records,
                 image: K::image,
-                twice: K::TWICE,
+                same_name_advice: K::SAME_NAME_ADVICE,
                 is_observable: K::OBSERVABLE,
                 has_ports: K::HAS_PORTS,
                 source: K::SOURCE,

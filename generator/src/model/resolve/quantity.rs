@@ -4,7 +4,7 @@
 //! has no known dimension. Everything else has the dimension of its units.
 
 use super::Resolver;
-use crate::description::expression::{self, Expression, Function, Kind, Operator};
+use crate::description::expression::{self, Expression, ExpressionKind, Function, Operator};
 use crate::description::measure::{ACCELERATION, Expected, Measured};
 use crate::description::place::{At, Step};
 use crate::description::quantity::{Number as WrittenNumber, OneOrThree, Quantity};
@@ -360,16 +360,16 @@ impl Resolver<'_> {
     ) -> Option<(Number, Measure)> {
         use Measure::{Bare, Known};
         Some(match &e.kind {
-            Kind::Number(value) => (Number::Constant(*value), Bare),
-            Kind::Quantity(value, unit) => {
+            ExpressionKind::Number(value) => (Number::Constant(*value), Bare),
+            ExpressionKind::Quantity(value, unit) => {
                 (Number::Constant(value * unit.factor), Known(unit.dimension))
             }
-            Kind::Parameter(name) => names(name, e.offset, e.length)?,
-            Kind::Negative(a) => {
+            ExpressionKind::Parameter(name) => names(name, e.offset, e.length)?,
+            ExpressionKind::Negative(a) => {
                 let (a, measure) = self.expression(a, at, names)?;
                 (Number::negative(a), measure)
             }
-            Kind::Binary(operator, left, right) => {
+            ExpressionKind::Binary(operator, left, right) => {
                 let (a, b) = (
                     self.expression(left, at, names),
                     self.expression(right, at, names),
@@ -384,7 +384,7 @@ impl Resolver<'_> {
                 };
                 (number, measure)
             }
-            Kind::Call(Function::SquareRoot, a) => {
+            ExpressionKind::Call(Function::SquareRoot, a) => {
                 let (number, measure) = self.expression(a, at, names)?;
                 let measure = match measure {
                     Known(dimension) => match dimension.root() {
@@ -403,7 +403,7 @@ impl Resolver<'_> {
                 };
                 (Number::square_root(number), measure)
             }
-            Kind::Call(function, a) => {
+            ExpressionKind::Call(function, a) => {
                 let (number, measure) = self.expression(a, at, names)?;
                 if let Known(dimension) = measure
                     && dimension != Dimension::ONE

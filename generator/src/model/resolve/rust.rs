@@ -37,7 +37,7 @@ pub struct Wanted<'a> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The place of the problem.
-    pub place: Place,
+    pub place: FaultPlace,
     /// The problem in words.
     pub message: String,
     /// A remedy.
@@ -46,7 +46,7 @@ pub struct Fault {
 
 /// The place of a problem.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum FaultPlace {
     /// In the file: line and column, both from 1, and length in characters.
     File(usize, usize, usize),
     /// In the model: the key that names the function.
@@ -98,7 +98,7 @@ impl Source {
         let file = quoted(wanted.file);
         if text.len() > MAX_BYTES {
             return Err(at(
-                Place::File(1, 1, 1),
+                FaultPlace::File(1, 1, 1),
                 format!("the file {file} is longer than {MAX_BYTES} bytes"),
                 "a user force is one function with what it needs",
             ));
@@ -123,7 +123,7 @@ impl Source {
         let parsed = syn::parse_file(text).map_err(|e| not_rust(e.to_string(), e.span()))?;
         if parsed.shebang.is_some() {
             return Err(at(
-                Place::File(1, 1, 2),
+                FaultPlace::File(1, 1, 2),
                 "the file begins with `#!`, but it becomes a module".to_owned(),
                 "remove the first line",
             ));
@@ -203,7 +203,7 @@ impl Source {
             let names: Vec<String> = functions().map(|f| f.sig.ident.to_string()).collect();
             let near = nearest(wanted.function, names.iter().map(String::as_str));
             faults.push(Fault {
-                place: Place::Function,
+                place: FaultPlace::Function,
                 message: format!(
                     "there is no function {} in {}",
                     quoted(wanted.function),
@@ -235,7 +235,7 @@ impl Source {
             for (index, name) in names.iter().enumerate() {
                 if !mentioned.contains(name) {
                     faults.push(Fault {
-                        place: Place::Name(kind, index),
+                        place: FaultPlace::Name(kind, index),
                         message: format!("{} never mentions {}", quoted(wanted.file), quoted(name)),
                         help: match *kind {
                             "states" => format!(
@@ -362,9 +362,9 @@ fn undeclared(function: &ItemFn, wanted: &Wanted<'_>) -> Vec<Fault> {
 }
 
 /// The place of a token.
-fn place(span: Span, length: usize) -> Place {
+fn place(span: Span, length: usize) -> FaultPlace {
     let start = span.start();
-    Place::File(start.line.max(1), start.column + 1, length.max(1))
+    FaultPlace::File(start.line.max(1), start.column + 1, length.max(1))
 }
 
 /// Visits all tokens in the order of the text, including those within groups. It is not recursive, so nesting may be

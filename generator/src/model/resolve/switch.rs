@@ -3,7 +3,7 @@
 
 use super::Resolver;
 use super::name::Style;
-use crate::description::expression::{Kind, parse};
+use crate::description::expression::{ExpressionKind, parse};
 use crate::description::load::Loaded;
 use crate::description::measure::Expected;
 use crate::description::output::Output as Looked;
@@ -180,9 +180,9 @@ fn written_in(quantity: &Quantity) -> Option<(String, f64)> {
         return None;
     };
     let unit = match parse(text).ok()?.kind {
-        Kind::Quantity(_, unit) => unit,
-        Kind::Negative(positive) => match positive.kind {
-            Kind::Quantity(_, unit) => unit,
+        ExpressionKind::Quantity(_, unit) => unit,
+        ExpressionKind::Negative(positive) => match positive.kind {
+            ExpressionKind::Quantity(_, unit) => unit,
             _ => return None,
         },
         _ => return None,

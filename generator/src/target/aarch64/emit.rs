@@ -7,10 +7,10 @@ use super::encode::{
 };
 use super::pairs;
 use crate::target::machine::emit::{At, Emitter, Processor, Writer};
-use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
+use crate::target::machine::operation::{Binary, Bitwise, CodePosition, Jump, Signs, Vector};
 use crate::target::machine::registers::{NEVER, Set};
 use crate::target::machine::shape::{Length, Precision, Shape};
-use crate::target::machine::steps::{Kind, Origin, Step};
+use crate::target::machine::steps::{Origin, Step, StepKind};
 
 /// A processor of AArch64.
 pub struct Arm {
@@ -64,18 +64,18 @@ impl Processor for Arm {
     fn step(emitter: &mut Emitter<'_, Self>, step: &Step) {
         let [a, b, c, d] = step.operands;
         match step.kind {
-            Kind::Binary(operation @ (Binary::Max | Binary::Min)) => {
+            StepKind::Binary(operation @ (Binary::Max | Binary::Min)) => {
                 emitter.extreme(operation, [a, b], step.defines);
             }
-            Kind::Binary(operation) => emitter.binary(operation, [a, b], step.defines),
-            Kind::Fused(signs) if emitter.lanes() => {
+            StepKind::Binary(operation) => emitter.binary(operation, [a, b], step.defines),
+            StepKind::Fused(signs) if emitter.lanes() => {
                 emitter.accumulate(signs, [a, b, c], step.defines);
             }
-            Kind::Fused(signs) => emitter.fused(signs, [a, b, c], step.defines),
-            Kind::Select => emitter.select([a, b], [c, d], step.defines),
-            Kind::Sqrt => emitter.unary(Unary::Sqrt, a, step.defines),
-            Kind::Bits(operation) => emitter.bits(operation, [a, b], step.defines),
-            Kind::ShiftLeft(places) => {
+            StepKind::Fused(signs) => emitter.fused(signs, [a, b, c], step.defines),
+            StepKind::Select => emitter.select([a, b], [c, d], step.defines),
+            StepKind::Sqrt => emitter.unary(Unary::Sqrt, a, step.defines),
+            StepKind::Bits(operation) => emitter.bits(operation, [a, b], step.defines),
+            StepKind::ShiftLeft(places) => {
                 let [source] = emitter.all_loaded([a]);
                 emitter.used();
                 let result = emitter.destination();
@@ -84,7 +84,7 @@ impl Processor for Arm {
                 encoder.shift_left(lanes, result, source, places);
                 emitter.define(step.defines, result);
             }
-            Kind::Rare { .. } | Kind::Call { .. } => unreachable!("not arithmetic"),
+            StepKind::Rare { .. } | StepKind::Call { .. } => unreachable!("not arithmetic"),
         }
     }
 
@@ -169,7 +169,7 @@ impl Writer for Arm {
         self.end = self.encoder.instructions.len();
     }
 
-    fn here(&self) -> Place {
+    fn here(&self) -> CodePosition {
         self.encoder.here()
     }
 
@@ -177,11 +177,11 @@ impl Writer for Arm {
         self.encoder.land(jump);
     }
 
-    fn jump_to(&mut self, place: Place) {
+    fn jump_to(&mut self, place: CodePosition) {
         self.encoder.jump_to(place);
     }
 
-    fn call_place(&mut self, place: Place) {
+    fn call_place(&mut self, place: CodePosition) {
         self.encoder.call_place(place);
     }
 

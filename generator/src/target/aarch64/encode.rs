@@ -3,7 +3,7 @@
 //! Every instruction is a word. Names and layouts are those of the Arm Architecture Reference Manual for A-profile (DDI 0487), chapters C6 and C7. Methods
 //! that work on numbers take a [`Form`]: a scalar, or all lanes of a register.
 
-use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
+use crate::target::machine::operation::{Binary, Bitwise, CodePosition, Jump, Signs, Vector};
 use crate::target::machine::shape::Precision;
 
 /// A general register of 64 bits, x0 to x30; 31 is the stack pointer.
@@ -471,14 +471,14 @@ impl Encoder {
     }
 
     /// Jumps to a place: B
-    pub fn jump_to(&mut self, Place(to): Place) {
+    pub fn jump_to(&mut self, CodePosition(to): CodePosition) {
         let at = self.instructions.len();
         self.branches.push(Branch { at, to });
         self.other(0x1400_0000);
     }
 
     /// Calls the code at a place: BL
-    pub fn call_place(&mut self, Place(to): Place) {
+    pub fn call_place(&mut self, CodePosition(to): CodePosition) {
         let at = self.instructions.len();
         self.branches.push(Branch { at, to });
         self.other(0x9400_0000);
@@ -492,8 +492,8 @@ impl Encoder {
     }
 
     /// The place of the next instruction.
-    pub fn here(&self) -> Place {
-        Place(self.instructions.len())
+    pub fn here(&self) -> CodePosition {
+        CodePosition(self.instructions.len())
     }
 
     /// Makes a jump go to the next instruction.

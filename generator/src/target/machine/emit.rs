@@ -6,12 +6,12 @@
 
 use super::Code;
 use super::base::Base;
-use super::operation::{Jump, Place, Vector};
+use super::operation::{CodePosition, Jump, Vector};
 use super::rare::Rare;
 use super::registers::{NEVER, Registers, Set};
 use super::shape::{Length, Precision, Shape, Values};
 use super::slots::Slots;
-use super::steps::{Kind, Origin, Step, Steps};
+use super::steps::{Origin, Step, StepKind, Steps};
 use crate::program::{Input, List};
 
 /// The place of a value in memory.
@@ -56,13 +56,13 @@ pub trait Writer: Sized {
     /// True if the code so far may have changed a register.
     fn changed(&self, register: Vector) -> bool;
     /// The place of the next instruction.
-    fn here(&self) -> Place;
+    fn here(&self) -> CodePosition;
     /// Makes a jump go to the next instruction.
     fn land(&mut self, jump: Jump);
     /// Jumps to a place.
-    fn jump_to(&mut self, place: Place);
+    fn jump_to(&mut self, place: CodePosition);
     /// Calls the part of the code that begins at a place.
-    fn call_place(&mut self, place: Place);
+    fn call_place(&mut self, place: CodePosition);
     /// The code, followed by the constants from the next multiple of 64 bytes on.
     fn finish(self, constants: Vec<u8>) -> Vec<u8>;
 }
@@ -213,7 +213,7 @@ fn uses_of_bases(steps: &Steps, homes: &[Home]) -> [u32; Base::ALL.len()] {
     // most loads and stores are of values that have no register
     uses[Base::Frame as usize] = u32::MAX;
     for step in &steps.steps {
-        if let Kind::Call { .. } | Kind::Rare { .. } = step.kind {
+        if let StepKind::Call { .. } | StepKind::Rare { .. } = step.kind {
             uses[Base::Functions as usize] += 1;
         }
     }
@@ -251,7 +251,7 @@ impl<'a, P: Processor> Emitter<'a, P> {
         let (constants, homes) = homes(steps, values);
         let mut uses = uses(steps);
         let calls = steps.steps.iter().filter_map(|step| match step.kind {
-            Kind::Call { arguments, .. } => Some(arguments),
+            StepKind::Call { arguments, .. } => Some(arguments),
             _ => None,
         });
         let most_arguments = calls.max();
@@ -298,13 +298,13 @@ impl<'a, P: Processor> Emitter<'a, P> {
 
     fn step(&mut self, step: &Step) {
         match step.kind {
-            Kind::Rare { .. } => self.rare(step),
-            Kind::Call {
+            StepKind::Rare { .. } => self.rare(step),
+            StepKind::Call {
                 callee, results, ..
             } => self.call(callee, step.arguments(), step.defines, results),
             _ => P::step(self, step),
         }
-        self.give_back();
+        self.free_vacated_slots();
     }
 
     /// The next step after this one that uses an operand of this step.
@@ -357,7 +357,7 @@ impl<'a, P: Processor> Emitter<'a, P> {
     }
 
     /// Frees the slots of dropped values.
-    fn give_back(&mut self) {
+    fn free_vacated_slots(&mut self) {
         for slot in self.vacated.drain(..) {
             self.slots.give_back(slot);
         }

@@ -5,7 +5,7 @@
 //! sign of zero.
 
 use super::operation::{Binary, Bitwise, Signs};
-use super::steps::{Kind, Origin, Step, Steps};
+use super::steps::{Origin, Step, StepKind, Steps};
 use rustc_hash::FxHashMap;
 
 /// A value, or its negative.
@@ -62,7 +62,7 @@ impl Numbers {
             (true, false) => (Binary::Sub, b.value, a.value),
             (true, true) => (Binary::Sub, self.negative(a.value), b.value),
         };
-        self.step(Kind::Binary(kind), [first, second, first, first])
+        self.step(StepKind::Binary(kind), [first, second, first, first])
     }
 
     /// (±a) + (±b). A constant −0 is not added, because it changes nothing.
@@ -100,7 +100,7 @@ impl Numbers {
     pub fn scaled(&mut self, kind: Binary, a: Signed, b: Signed) -> Signed {
         Signed {
             negative: a.negative != b.negative,
-            ..self.step(Kind::Binary(kind), [a.value, b.value, a.value, a.value])
+            ..self.step(StepKind::Binary(kind), [a.value, b.value, a.value, a.value])
         }
     }
 
@@ -116,13 +116,13 @@ impl Numbers {
     /// √(±a)
     pub fn root(&mut self, a: Signed) -> Signed {
         let a = self.with_sign(a);
-        self.step(Kind::Sqrt, [a; 4])
+        self.step(StepKind::Sqrt, [a; 4])
     }
 
     /// `then` where a < b, `otherwise` elsewhere
     pub fn select(&mut self, [a, b]: [Signed; 2], then: Signed, otherwise: Signed) -> Signed {
         let operands = [a, b, then, otherwise].map(|value| self.with_sign(value));
-        self.step(Kind::Select, operands)
+        self.step(StepKind::Select, operands)
     }
 
     /// (±a) · (±b) + (±c), rounded once
@@ -131,7 +131,7 @@ impl Numbers {
             product: a.negative != b.negative,
             addend: c.negative,
         };
-        self.step(Kind::Fused(signs), [a.value, b.value, c.value, a.value])
+        self.step(StepKind::Fused(signs), [a.value, b.value, c.value, a.value])
     }
 
     /// The larger or the smaller of a and b; a if either is NaN. The instruction returns its second operand if either
@@ -146,16 +146,16 @@ impl Numbers {
             let operands = [first.value, second.value, first.value, first.value];
             return Signed {
                 negative: true,
-                ..self.step(Kind::Binary(other), operands)
+                ..self.step(StepKind::Binary(other), operands)
             };
         }
         let (first, second) = (self.with_sign(first), self.with_sign(second));
-        self.step(Kind::Binary(kind), [first, second, first, first])
+        self.step(StepKind::Binary(kind), [first, second, first, first])
     }
 
     /// a ∘ b, bit by bit
     pub fn bits(&mut self, kind: Bitwise, a: u32, b: u32) -> u32 {
-        self.step(Kind::Bits(kind), [a, b, a, a]).value
+        self.step(StepKind::Bits(kind), [a, b, a, a]).value
     }
 
     /// A value with the bits of a mask flipped.
@@ -182,11 +182,11 @@ impl Numbers {
 
     /// The bits of a value, shifted left.
     pub fn shifted_left(&mut self, a: u32, places: u8) -> u32 {
-        self.step(Kind::ShiftLeft(places), [a; 4]).value
+        self.step(StepKind::ShiftLeft(places), [a; 4]).value
     }
 
     /// Adds a step.
-    pub fn step(&mut self, kind: Kind, operands: [u32; 4]) -> Signed {
+    pub fn step(&mut self, kind: StepKind, operands: [u32; 4]) -> Signed {
         let value = self.value(Origin::Step);
         self.steps.steps.push(Step {
             kind,

@@ -41,7 +41,7 @@ pub struct Signs {
 
 /// A position in the code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place(pub usize);
+pub struct CodePosition(pub usize);
 
 /// A jump whose target must still be filled in. On x86-64 it holds the position of the displacement, on AArch64 the
 /// index of the branch.

@@ -8,10 +8,10 @@
 
 use super::base::Base;
 use super::emit::{Emitter, Home, Processor};
-use super::operation::{Jump, Place, Vector};
+use super::operation::{CodePosition, Jump, Vector};
 use super::registers::Set;
 use super::slots::Slots;
-use super::steps::{Kind, Step, Steps};
+use super::steps::{Step, StepKind, Steps};
 
 /// The branches of a function, and the slots of the frame that they need.
 pub(crate) struct Rare {
@@ -32,7 +32,7 @@ struct Branch {
     slots: u32,
     given: Vec<Somewhere>,
     results: Vec<Vector>,
-    back: Place,
+    back: CodePosition,
 }
 
 /// The place of a number that is passed to a function.
@@ -46,7 +46,7 @@ impl Rare {
     /// Reserves slots for the branches of these steps; `None` if there are no branches.
     pub fn new(steps: &Steps, registers: u32, slots: &mut Slots) -> Option<Rare> {
         let needs = steps.steps.iter().filter_map(|step| match step.kind {
-            Kind::Rare {
+            StepKind::Rare {
                 given,
                 results,
                 slots,
@@ -75,7 +75,7 @@ impl<P: Processor> Emitter<'_, P> {
     /// Emits a branch that is taken unless a size is below its limit in all lanes. The code continues with the results
     /// in their registers.
     pub fn rare(&mut self, step: &Step) {
-        let Kind::Rare {
+        let StepKind::Rare {
             callee,
             limit,
             given,
@@ -135,7 +135,7 @@ impl<P: Processor> Emitter<'_, P> {
             return;
         };
         let branches = std::mem::take(&mut rare.branches);
-        let mut shared: Vec<(u32, Place)> = Vec::new();
+        let mut shared: Vec<(u32, CodePosition)> = Vec::new();
         for branch in &branches {
             if shared.iter().all(|(callee, _)| *callee != branch.callee) {
                 shared.push((branch.callee, self.processor.here()));

@@ -33,7 +33,7 @@ pub(crate) enum Origin {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum StepKind {
     /// An operation on the first two operands.
     Binary(Binary),
     /// ±(first · second) ± third
@@ -71,7 +71,7 @@ pub(crate) enum Kind {
 /// Roughly one instruction. Unused operands repeat the first operand.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
-    pub kind: Kind,
+    pub kind: StepKind,
     pub operands: [u32; 4],
     /// The first value that the step defines.
     pub defines: u32,
@@ -81,11 +81,11 @@ impl Step {
     /// The operands in use. The arguments of a call are not among them.
     pub fn operands(&self) -> &[u32] {
         let count = match self.kind {
-            Kind::Binary(_) | Kind::Bits(_) => 2,
-            Kind::Fused(_) => 3,
-            Kind::Select => 4,
-            Kind::Sqrt | Kind::ShiftLeft(_) => 1,
-            Kind::Call { .. } | Kind::Rare { .. } => 0,
+            StepKind::Binary(_) | StepKind::Bits(_) => 2,
+            StepKind::Fused(_) => 3,
+            StepKind::Select => 4,
+            StepKind::Sqrt | StepKind::ShiftLeft(_) => 1,
+            StepKind::Call { .. } | StepKind::Rare { .. } => 0,
         };
         &self.operands[..count]
     }
@@ -93,10 +93,10 @@ impl Step {
     /// The range of the step's arguments in [`Steps::arguments`].
     pub fn arguments(&self) -> std::ops::Range<usize> {
         let (first, count) = match self.kind {
-            Kind::Call {
+            StepKind::Call {
                 first, arguments, ..
             } => (first, arguments),
-            Kind::Rare {
+            StepKind::Rare {
                 first,
                 given,
                 results,
@@ -283,7 +283,7 @@ impl Lowering<'_> {
         let index = self.callee(callee);
         let steps = &mut self.numbers.steps;
         let parts = 1 + usize::from(self.slopes);
-        let kind = Kind::Call {
+        let kind = StepKind::Call {
             callee: index,
             first: steps.arguments.len() as u32,
             arguments: arguments.len() as u32,
@@ -317,7 +317,7 @@ impl Lowering<'_> {
         let limit = numbers.constant(limit);
         let all = std::iter::once(&size).chain(given).chain(results);
         let arguments: Vec<u32> = all.map(|value| numbers.with_sign(*value)).collect();
-        let kind = Kind::Rare {
+        let kind = StepKind::Rare {
             callee,
             limit,
             first: numbers.steps.arguments.len() as u32,

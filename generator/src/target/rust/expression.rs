@@ -5,7 +5,7 @@ use super::naming::Naming;
 use super::syntax;
 use crate::expression::{Function, NodeId, Symbol};
 use crate::method::inputs::{Input, Inputs};
-use crate::program::formula::{Form, Formulas, Method, Operator};
+use crate::program::formula::{Form, Formulas, MethodOperation, Operator};
 use crate::program::schedule::{Schedule, Statement};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -142,13 +142,18 @@ impl Form for Printer<'_> {
         syntax::binary(a, operator, b)
     }
 
-    fn method<const N: usize>(&self, receiver: Expr, method: Method, others: [Expr; N]) -> Expr {
+    fn method<const N: usize>(
+        &self,
+        receiver: Expr,
+        method: MethodOperation,
+        others: [Expr; N],
+    ) -> Expr {
         let name = match method {
-            Method::Sqrt => "sqrt",
-            Method::Atan2 => "atan2",
-            Method::Max => "max",
-            Method::Min => "min",
-            Method::MulAdd => "mul_add",
+            MethodOperation::Sqrt => "sqrt",
+            MethodOperation::Atan2 => "atan2",
+            MethodOperation::Max => "max",
+            MethodOperation::Min => "min",
+            MethodOperation::MulAdd => "mul_add",
         };
         syntax::method(receiver, name, others)
     }

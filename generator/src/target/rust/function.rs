@@ -407,7 +407,7 @@ impl Writer<'_> {
             return syntax::does(printer.statement(statement));
         }
         let comment = comment.and_then(comment::marked);
-        let bindings = self.schedule.bindings(statement);
+        let bindings = self.schedule.results_by_place(statement);
         let mut patterns = bindings
             .iter()
             .map(|id| syntax::binding(id.and_then(|id| self.names.of(id))));

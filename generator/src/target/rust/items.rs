@@ -336,7 +336,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
         let Watched {
             name,
             unit,
-            told,
+            states_extrapolation,
             kind,
             ..
         } = watched;
@@ -353,7 +353,7 @@ pub(crate) fn info(model: &Model, equations: &Equations) -> TokenStream {
                 quote!(CurveKind::Direction(#i))
             }
         };
-        quote!(CurveInfo { name: #name, unit: #unit, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #told, kind: #kind })
+        quote!(CurveInfo { name: #name, unit: #unit, first: #first, last: #last, ends: [#start, #end], extrapolate: #extrapolate, told: #states_extrapolation, kind: #kind })
     });
     let outputs = facts
         .outputs

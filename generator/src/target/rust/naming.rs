@@ -31,7 +31,7 @@ impl Naming {
         naming.name_inputs(schedule, inputs, arguments, &mut names);
         let mut temporaries = 0;
         for line in &schedule.lines {
-            for bound in schedule.bound(line.statement) {
+            for bound in schedule.bound_values(line.statement) {
                 let wanted = naming.wanted_name(schedule, bound);
                 let wanted = wanted.or_else(|| labels.get(&bound).map(|label| snake(label)));
                 let wanted = wanted.unwrap_or_else(|| {

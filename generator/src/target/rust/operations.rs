@@ -29,7 +29,7 @@ pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Func
         .iter()
         .map(|function| (function.name.to_string(), &function.operations.total))
         .collect();
-    let columns: Vec<Kind> = KINDS
+    let columns: Vec<OperationCounter> = KINDS
         .iter()
         .copied()
         .filter(|(_, of)| rows.iter().any(|(_, count)| of(count) > 0))
@@ -76,9 +76,9 @@ pub(crate) fn tables(text: &mut String, equations: &Equations, functions: &[Func
 }
 
 /// The name of a kind of operation, and the function that reads its number from a count.
-type Kind = (&'static str, fn(&Count) -> usize);
+type OperationCounter = (&'static str, fn(&Count) -> usize);
 
-const KINDS: [Kind; 12] = [
+const KINDS: [OperationCounter; 12] = [
     ("total", Count::total),
     ("add", |count| count.add),
     ("sub", |count| count.sub),

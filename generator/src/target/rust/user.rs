@@ -208,7 +208,7 @@ struct Interface<'a> {
 }
 
 /// One kind of port, such as points: the struct `Points` has a field of type `Point` for each port.
-struct Kind {
+struct PortKind {
     /// Name of the field of `Input` and `Output`.
     field: &'static str,
     all: &'static str,
@@ -288,7 +288,7 @@ impl Interface<'_> {
     }
 
     // Long: an entry for each kind of port.
-    fn kinds(&self) -> Vec<Kind> {
+    fn kinds(&self) -> Vec<PortKind> {
         let (vector, rotation, axes) = match self.user.dimension {
             Dimension::Plane => (Shape::Vector(2), Shape::Scalar, "[x, z] in absolute axes"),
             Dimension::Space => (
@@ -319,7 +319,7 @@ impl Interface<'_> {
         };
         let user = self.user;
         let kinds = vec![
-            Kind {
+            PortKind {
                 field: "points",
                 all: "Points",
                 one: "Point",
@@ -335,7 +335,7 @@ impl Interface<'_> {
                     format!("Force on the body at the point, {axes} [N]."),
                 ),
             },
-            Kind {
+            PortKind {
                 field: "bodies",
                 all: "Bodies",
                 one: "Body",
@@ -355,7 +355,7 @@ impl Interface<'_> {
                     format!("Moment on the body, {about} [N m]."),
                 ),
             },
-            Kind {
+            PortKind {
                 field: "lines",
                 all: "Lines",
                 one: "Line",
@@ -379,7 +379,7 @@ impl Interface<'_> {
                     "Force that draws the ends together, negative where it pushes [N].".to_owned(),
                 ),
             },
-            Kind {
+            PortKind {
                 field: "joints",
                 all: "Joints",
                 one: "Joint",
@@ -401,7 +401,7 @@ impl Interface<'_> {
                     ),
                 ),
             },
-            Kind {
+            PortKind {
                 field: "freedoms",
                 all: "Freedoms",
                 one: "Freedom",
@@ -860,7 +860,7 @@ impl Interface<'_> {
     }
 }
 
-impl Kind {
+impl PortKind {
     /// The struct with a field for each port of this kind.
     fn all_of(&self) -> TokenStream {
         let one = ident(self.one);

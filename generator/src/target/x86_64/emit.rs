@@ -7,10 +7,10 @@ use super::Target;
 use super::abi::Bases;
 use super::encode::{Comparison, Encoder, Form, Memory, Operand};
 use crate::target::machine::emit::{At, Emitter, Home, Needs, Processor, Writer};
-use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
+use crate::target::machine::operation::{Binary, Bitwise, CodePosition, Jump, Signs, Vector};
 use crate::target::machine::registers::{NEVER, Set};
 use crate::target::machine::shape::{Length, Shape};
-use crate::target::machine::steps::{Kind, Step};
+use crate::target::machine::steps::{Step, StepKind};
 
 /// A value in memory is loaded into a register if it is used again within this many steps.
 const SOON: u32 = 12;
@@ -70,18 +70,18 @@ impl Processor for X86 {
     fn step(emitter: &mut Emitter<'_, Self>, step: &Step) {
         let operands = step.operands;
         match step.kind {
-            Kind::Binary(operation) => {
+            StepKind::Binary(operation) => {
                 emitter.binary(operation, operands[0], operands[1], step.defines);
             }
-            Kind::Fused(signs) => {
+            StepKind::Fused(signs) => {
                 let [a, b, c, _] = operands;
                 emitter.fused(signs, [a, b, c], step.defines);
             }
-            Kind::Select => emitter.select(operands, step.defines),
-            Kind::Sqrt => emitter.root(operands[0], step.defines),
-            Kind::Bits(operation) => emitter.bits(operation, operands, step.defines),
-            Kind::ShiftLeft(places) => emitter.shift_left(places, operands[0], step.defines),
-            Kind::Rare { .. } | Kind::Call { .. } => unreachable!("not arithmetic"),
+            StepKind::Select => emitter.select(operands, step.defines),
+            StepKind::Sqrt => emitter.root(operands[0], step.defines),
+            StepKind::Bits(operation) => emitter.bits(operation, operands, step.defines),
+            StepKind::ShiftLeft(places) => emitter.shift_left(places, operands[0], step.defines),
+            StepKind::Rare { .. } | StepKind::Call { .. } => unreachable!("not arithmetic"),
         }
     }
 
@@ -151,7 +151,7 @@ impl Writer for X86 {
         self.bases.leave(&mut self.encoder);
     }
 
-    fn here(&self) -> Place {
+    fn here(&self) -> CodePosition {
         self.encoder.here()
     }
 
@@ -159,11 +159,11 @@ impl Writer for X86 {
         self.encoder.land(jump);
     }
 
-    fn jump_to(&mut self, place: Place) {
+    fn jump_to(&mut self, place: CodePosition) {
         self.encoder.jump_to(place);
     }
 
-    fn call_place(&mut self, place: Place) {
+    fn call_place(&mut self, place: CodePosition) {
         self.encoder.call_place(place);
     }
 

@@ -3,7 +3,7 @@
 //! Instructions on vector registers have a VEX prefix if possible. They have an EVEX prefix with 64-byte registers, with registers 16 to 31, and
 //! where memory is broadcast. The layouts are those of the Intel manual, volume 2, chapter 2.
 
-use crate::target::machine::operation::{Binary, Bitwise, Jump, Place, Signs, Vector};
+use crate::target::machine::operation::{Binary, Bitwise, CodePosition, Jump, Signs, Vector};
 use crate::target::machine::shape::{Length, Precision, Shape};
 
 /// A general register.
@@ -324,14 +324,14 @@ impl Encoder {
     }
 
     /// Jumps back to a place.
-    pub fn jump_to(&mut self, place: Place) {
+    pub fn jump_to(&mut self, place: CodePosition) {
         self.bytes.push(0xe9);
         let jump = self.displacement();
         self.fill_in(jump, place);
     }
 
     /// Calls the function at a place in the code.
-    pub fn call_place(&mut self, place: Place) {
+    pub fn call_place(&mut self, place: CodePosition) {
         self.bytes.push(0xe8);
         let jump = self.displacement();
         self.fill_in(jump, place);
@@ -344,8 +344,8 @@ impl Encoder {
     }
 
     /// The place of the next instruction.
-    pub fn here(&self) -> Place {
-        Place(self.bytes.len())
+    pub fn here(&self) -> CodePosition {
+        CodePosition(self.bytes.len())
     }
 
     /// Makes a jump go to the next instruction.
@@ -354,7 +354,7 @@ impl Encoder {
         self.fill_in(jump, here);
     }
 
-    fn fill_in(&mut self, Jump(at): Jump, Place(place): Place) {
+    fn fill_in(&mut self, Jump(at): Jump, CodePosition(place): CodePosition) {
         let end = at + 4;
         let distance = (place as i64 - end as i64) as i32;
         self.bytes[at..end].copy_from_slice(&distance.to_le_bytes());

@@ -73,9 +73,9 @@ fn compiled_for_fused<W: Task>(task: W) -> W::Output {
 impl<F> Instructions for Alone<F, Fused> {
     /// On x86-64, true if there are registers of four lanes, of which this is one lane.
     #[inline(always)]
-    fn there() -> bool {
+    fn is_available() -> bool {
         #[cfg(target_arch = "x86_64")]
-        return <super::avx2::Avx2 as Instructions>::there();
+        return <super::avx2::Avx2 as Instructions>::is_available();
         #[cfg(not(target_arch = "x86_64"))]
         return true;
     }
@@ -101,7 +101,7 @@ macro_rules! everywhere {
     ($rounding:ty) => {
         impl<F> Instructions for Alone<F, $rounding> {
             #[inline(always)]
-            fn there() -> bool {
+            fn is_available() -> bool {
                 true
             }
 

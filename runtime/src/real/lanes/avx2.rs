@@ -20,7 +20,7 @@ fn compiled_for_avx2<W: Task>(task: W) -> W::Output {
 
 impl Instructions for Avx2 {
     #[inline(always)]
-    fn there() -> bool {
+    fn is_available() -> bool {
         #[cfg(any(feature = "std", test))]
         return is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")

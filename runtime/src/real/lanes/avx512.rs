@@ -22,7 +22,7 @@ fn compiled_for_avx512<W: Task>(task: W) -> W::Output {
 
 impl Instructions for Avx512 {
     #[inline(always)]
-    fn there() -> bool {
+    fn is_available() -> bool {
         #[cfg(any(feature = "std", test))]
         return is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")

@@ -74,14 +74,14 @@ impl Width {
     pub const ALL: [Width; 4] = [Width::One, Width::Two, Width::Four, Width::Eight];
 
     /// Whether this processor has such registers.
-    pub fn there(self) -> bool {
+    pub fn is_available(self) -> bool {
         match self {
             Width::One => true,
             Width::Two => cfg!(target_arch = "aarch64"),
             #[cfg(target_arch = "x86_64")]
-            Width::Four => Avx2::there(),
+            Width::Four => Avx2::is_available(),
             #[cfg(target_arch = "x86_64")]
-            Width::Eight => Avx512::there(),
+            Width::Eight => Avx512::is_available(),
             #[cfg(not(target_arch = "x86_64"))]
             Width::Four | Width::Eight => false,
         }
@@ -124,7 +124,10 @@ impl Width {
 
     /// The widest that this processor has.
     pub fn widest() -> Width {
-        let mut there = Self::ALL.into_iter().rev().filter(|width| width.there());
+        let mut there = Self::ALL
+            .into_iter()
+            .rev()
+            .filter(|width| width.is_available());
         there.next().unwrap_or(Width::One)
     }
 }
@@ -140,11 +143,11 @@ pub trait OfAnyWidth<F: Real = f64> {
 /// Does the work with registers of doubles of this width; `None` if the processor does not have them. Registers are
 /// made only here and in [`with_width_of_singles`], so none is made on a processor without its instructions.
 pub fn with_width<W: OfAnyWidth>(width: Width, task: W) -> Option<W::Output> {
-    if !width.there() {
+    if !width.is_available() {
         return None;
     }
     Some(match width {
-        Width::One if Alone::<f64, Fused>::there() => task.run::<Lanes<Alone<f64, Fused>>>(),
+        Width::One if Alone::<f64, Fused>::is_available() => task.run::<Lanes<Alone<f64, Fused>>>(),
         Width::One => task.run::<Lanes<Alone<f64, Emulated>>>(),
         #[cfg(target_arch = "aarch64")]
         Width::Two => task.run::<Lanes<Neon>>(),
@@ -168,11 +171,11 @@ pub fn with_emulated<W: OfAnyWidth>(task: W) -> W::Output {
 /// Does the work with the registers of singles of this width, which have twice as many lanes; `None` if the processor
 /// does not have them.
 pub fn with_width_of_singles<W: OfAnyWidth<f32>>(width: Width, task: W) -> Option<W::Output> {
-    if !width.there() {
+    if !width.is_available() {
         return None;
     }
     Some(match width {
-        Width::One if Alone::<f32, Fused>::there() => task.run::<Lanes<Alone<f32, Fused>>>(),
+        Width::One if Alone::<f32, Fused>::is_available() => task.run::<Lanes<Alone<f32, Fused>>>(),
         Width::One => task.run::<Lanes<Alone<f32, Emulated>>>(),
         #[cfg(target_arch = "aarch64")]
         Width::Two => task.run::<Lanes<NeonSingles>>(),

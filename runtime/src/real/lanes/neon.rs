@@ -17,7 +17,7 @@ fn compiled_for_neon<W: Task>(task: W) -> W::Output {
 
 impl Instructions for Neon {
     #[inline(always)]
-    fn there() -> bool {
+    fn is_available() -> bool {
         true
     }
 

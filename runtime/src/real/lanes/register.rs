@@ -10,7 +10,7 @@ use core::fmt::Debug;
 /// Whether a processor has the instructions of a register, and how to use them.
 pub trait Instructions {
     /// Whether this processor has them.
-    fn there() -> bool;
+    fn is_available() -> bool;
     /// Runs a task that is compiled for them. The processor must have them.
     fn dispatch<W: Task>(task: W) -> W::Output;
 }

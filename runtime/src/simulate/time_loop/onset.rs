@@ -6,7 +6,8 @@ use crate::real::Mask;
 use crate::real::mapped;
 use crate::simulate::Pace;
 use crate::simulate::onset::{
-    Course, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides, straight,
+    GapCourse, Hunt, QUARTERS, Unseen, Visit, calm, far, finest_gaps, limit, onset_of, sides,
+    straight,
 };
 use crate::{Dynamics, Real};
 
@@ -42,7 +43,8 @@ pub(super) const KEPT: usize = 7;
 const ANY: usize = 5;
 const PAST: usize = 6;
 const MIDDLE: usize = 3;
-pub(super) const END: usize = 1;
+/// The index at which the values at the end of the step are kept.
+pub(super) const STORED_END: usize = 1;
 /// The places in their order within a step.
 const IN_ORDER: [usize; QUARTERS + 1] = [0, 2, 3, 4, 1];
 
@@ -77,24 +79,24 @@ impl<'w, T: Real> Onsets<'w, T> {
     pub fn advance(&mut self) {
         let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
         self.values.copy_within(place(0), place(PAST).start);
-        self.values.copy_within(place(END), 0);
+        self.values.copy_within(place(STORED_END), 0);
     }
 
     /// Keeps a copy of the values at the end of the step.
     pub fn keep(&mut self) {
         let place = |place: usize| 2 * place * self.count..2 * (place + 1) * self.count;
-        self.values.copy_within(place(END), place(ANY).start);
+        self.values.copy_within(place(STORED_END), place(ANY).start);
     }
 
     /// True if the values at the end of the step equal the copy that was kept.
     pub fn as_kept(&self) -> bool {
         let place = |place: usize| &self.values[2 * place * self.count..][..2 * self.count];
-        place(END) == place(ANY)
+        place(STORED_END) == place(ANY)
     }
 
-    fn course(&self, side: usize) -> Course {
+    fn course(&self, side: usize) -> GapCourse {
         let speeds = mapped(IN_ORDER, |place| self.speed(place, side));
-        Course {
+        GapCourse {
             gaps: mapped(IN_ORDER, |place| self.gap(place, side)),
             speed: speeds.into_iter().fold(0.0, f64::max),
         }

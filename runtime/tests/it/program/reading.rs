@@ -5,7 +5,7 @@ use bryant_runtime::batch::rows::Asked;
 use bryant_runtime::program::{Entry, Job, Start};
 use bryant_runtime::program::{Kept, Reading};
 use bryant_runtime::response::Channel;
-use bryant_runtime::{Formula, Method, Response, Tolerances};
+use bryant_runtime::{Formula, Integrator, Response, Tolerances};
 use std::ops::ControlFlow;
 
 /// ẍ = −k (x + 1), where the curve of the force has a slope of k = 10⁻³ / 1.45, from 0 with 1 m/s: x and ẋ.
@@ -30,7 +30,7 @@ fn run(job: &Job) -> (Vec<f64>, Vec<f64>) {
 const END: f64 = 0.4;
 const AT: f64 = 0.2137;
 
-fn job(method: Method) -> Job {
+fn job(method: Integrator) -> Job {
     let asked = |response| Asked::of(0, response);
     Job {
         duration: Some(END),
@@ -54,11 +54,11 @@ fn job(method: Method) -> Job {
     }
 }
 
-fn methods() -> [Method; 2] {
+fn methods() -> [Integrator; 2] {
     [
-        Method::adaptive(Formula::Dopri5, Tolerances::uniform(1e-10)),
+        Integrator::adaptive(Formula::Dopri5, Tolerances::uniform(1e-10)),
         // a step that does not divide the time between two samples
-        Method::fixed(Formula::Rk4, 0.013),
+        Integrator::fixed(Formula::Rk4, 0.013),
     ]
 }
 

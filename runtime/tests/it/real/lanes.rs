@@ -320,14 +320,14 @@ fn widths_have_names_and_the_widest_is_there() {
         assert_eq!(Width::named(width.name()), Some(width));
         assert_eq!(
             with_width(width, Lanes),
-            width.there().then_some(width.lanes())
+            width.is_available().then_some(width.lanes())
         );
         assert_eq!(
             with_width_of_singles(width, Lanes),
-            width.there().then_some(width.lanes_of_singles())
+            width.is_available().then_some(width.lanes_of_singles())
         );
     }
-    assert!(Width::widest().there() && Width::One.there());
+    assert!(Width::widest().is_available() && Width::One.is_available());
     assert_eq!(Width::named("9"), None);
 }
 

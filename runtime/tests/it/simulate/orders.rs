@@ -1,14 +1,14 @@
 //! The order of every method as observed: on a smooth problem, and on problems with kinks that are located or passed.
 
 use crate::models::{Ball, Kepler, Tether};
-use bryant_runtime::simulate::{Method, Settings, run, simulate, simulate_stiff};
+use bryant_runtime::simulate::{Integrator, Settings, run, simulate, simulate_stiff};
 use bryant_runtime::{
     Differentiable, DoubleDouble, Formula, Model, ParameterSet, Real, Tolerances,
 };
 use core::ops::ControlFlow;
 
 /// The state at the end of a run, whose only samples are those at its ends.
-fn end<M: Model<f64>>(method: Method, locate: bool) -> Vec<f64> {
+fn end<M: Model<f64>>(method: Integrator, locate: bool) -> Vec<f64> {
     let model = M::new(M::Parameters::defaults());
     let settings = Settings {
         method,
@@ -24,7 +24,7 @@ fn end<M: Model<f64>>(method: Method, locate: bool) -> Vec<f64> {
     end
 }
 
-fn error<M: Model<f64>>(method: Method, locate: bool, exact: &[f64]) -> f64 {
+fn error<M: Model<f64>>(method: Integrator, locate: bool, exact: &[f64]) -> f64 {
     let end = end::<M>(method, locate);
     let errors = end.iter().zip(exact).map(|(y, exact)| (y - exact).abs());
     errors.fold(0.0, f64::max)
@@ -52,7 +52,7 @@ fn errors<M: Model<f64>>(
     let mut steps = 12.0;
     while steps < 2e6 {
         let step = M::INFO.duration / f64::floor(steps);
-        let error = error::<M>(Method::fixed(formula, step), locate, exact);
+        let error = error::<M>(Integrator::fixed(formula, step), locate, exact);
         if error < within[0] {
             break;
         }
@@ -117,7 +117,7 @@ fn every_method_has_its_order_on_a_smooth_problem() {
         let mut points = Vec::new();
         loop {
             let settings = Settings {
-                method: Method::fixed(formula, time / f64::floor(steps)),
+                method: Integrator::fixed(formula, time / f64::floor(steps)),
                 duration: time,
                 every: time,
                 ..Settings::of(<Kepler as Model<f64>>::INFO)
@@ -231,7 +231,7 @@ fn check<M: Model<f64>>(exact: &[f64], without: f64) {
         // and by far less accurate at the same step
         if nominal > without + 1.5 {
             let step = M::INFO.duration / 1000.0;
-            let method = Method::fixed(formula, step);
+            let method = Integrator::fixed(formula, step);
             let [better, worse] = [true, false].map(|locate| error::<M>(method, locate, exact));
             assert!(better < 1e-2 * worse, "{formula}: {better:e} {worse:e}");
         }
@@ -255,7 +255,7 @@ fn error_follows_the_tolerance_with_kinks_located_or_not() {
     for formula in Formula::ALL.into_iter().filter(|f| f.estimates_error()) {
         for locate in [true, false] {
             for tolerance in [1e-4, 1e-6, 1e-8] {
-                let method = Method::adaptive(formula, Tolerances::uniform(tolerance));
+                let method = Integrator::adaptive(formula, Tolerances::uniform(tolerance));
                 let model = <Tether as Model<f64>>::new(crate::models::None);
                 let settings = Settings {
                     method,
@@ -278,7 +278,7 @@ fn error_follows_the_tolerance_with_kinks_located_or_not() {
 /// What the study of accuracy takes as true: order 8 in double-doubles with kinks located.
 fn reference(duration: f64) -> Settings {
     Settings {
-        method: Method::adaptive(Formula::Dop853, Tolerances::uniform(1e-17)),
+        method: Integrator::adaptive(Formula::Dop853, Tolerances::uniform(1e-17)),
         locate: true,
         duration,
         every: duration,

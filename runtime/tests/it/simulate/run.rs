@@ -5,7 +5,9 @@ use crate::models::{
 };
 use bryant_runtime::failure::Reason;
 use bryant_runtime::simulate::Run;
-use bryant_runtime::simulate::{Method, Report, Sample, Settings, Watch, run_in, workspace_length};
+use bryant_runtime::simulate::{
+    Integrator, Report, Sample, Settings, Watch, run_in, workspace_length,
+};
 use bryant_runtime::{Differentiable, Dynamics, Formula, Model, ParameterSet, Real, Tolerances};
 use std::ops::ControlFlow;
 
@@ -88,9 +90,9 @@ fn check_from(model: &dyn Dynamics<f64>, start: &[f64]) {
                 every: every * info.duration,
                 ..Settings::of(info)
             };
-            let mut methods = vec![Method::fixed(formula, 0.003 * info.duration)];
+            let mut methods = vec![Integrator::fixed(formula, 0.003 * info.duration)];
             if formula.estimates_error() {
-                methods.push(Method::adaptive(formula, Tolerances::uniform(1e-6)));
+                methods.push(Integrator::adaptive(formula, Tolerances::uniform(1e-6)));
             }
             for method in methods {
                 let settings = at(method);
@@ -171,7 +173,7 @@ fn a_run_that_failed_says_so_again() {
 }
 
 /// The largest difference between one run of the sled and one in two halves that meet at this time, by a method.
-fn halves(method: Method, at: f64) -> (f64, Vec<f64>) {
+fn halves(method: Integrator, at: f64) -> (f64, Vec<f64>) {
     let info = <Follower as Model<f64>>::INFO;
     let settings = Settings {
         method,
@@ -228,8 +230,8 @@ fn a_run_that_begins_later_meets_all_later_kinks() {
     for share in [0.11, 0.5, 0.73] {
         let at = share * end.min(duration);
         for method in [
-            Method::fixed(Formula::Rk4, 1e-3 * duration),
-            Method::adaptive(Formula::Dop853, Tolerances::uniform(1e-12)),
+            Integrator::fixed(Formula::Rk4, 1e-3 * duration),
+            Integrator::adaptive(Formula::Dop853, Tolerances::uniform(1e-12)),
         ] {
             let (worst, times) = halves(method, at);
             assert!(worst <= 1e-10, "{worst} by {method:?} from {at}");

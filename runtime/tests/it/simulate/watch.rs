@@ -2,7 +2,7 @@
 
 use crate::models::{Leaky, Oscillator, Stage, Stiff};
 use bryant_runtime::simulate::{ENERGY_LIMIT, Watch};
-use bryant_runtime::simulate::{Method, Problem, Settings, run};
+use bryant_runtime::simulate::{Integrator, Problem, Settings, run};
 use bryant_runtime::{Differentiable, Formula, Model, ParameterSet, Report, Tolerances};
 use core::ops::ControlFlow;
 
@@ -27,7 +27,7 @@ fn watched<M: Model<f64>>(
     (watch, result.map_err(|failure| failure.with_info(M::INFO)))
 }
 
-fn settings(method: Method, duration: f64) -> Settings {
+fn settings(method: Integrator, duration: f64) -> Settings {
     Settings {
         method,
         duration,
@@ -52,7 +52,7 @@ fn a_step_above_the_limit_is_found_with_the_speed_of_the_motion() {
         let Some(limit) = formula.stability_limit() else {
             continue;
         };
-        let method = Method::fixed(formula, 1.2 * limit / omega);
+        let method = Integrator::fixed(formula, 1.2 * limit / omega);
         let settings = settings(method, 100.0 * limit / omega);
         let (watch, result) = watched::<Oscillator>(Some(omega * omega), &settings, ENERGY_LIMIT);
         let (rate, _) = step_of(&watch).unwrap_or_else(|| panic!("{formula}: {result:?}"));
@@ -77,7 +77,7 @@ fn a_step_below_the_limit_of_the_oscillator_is_not_suspected() {
         (Formula::Merson, 12f64.sqrt()),
     ] {
         let omega = 10.0;
-        let settings = settings(Method::fixed(formula, 0.95 * limit / omega), 20.0);
+        let settings = settings(Integrator::fixed(formula, 0.95 * limit / omega), 20.0);
         let (watch, result) = watched::<Oscillator>(Some(omega * omega), &settings, ENERGY_LIMIT);
         assert!(result.is_ok());
         assert_eq!(step_of(&watch), None, "{formula}");
@@ -88,7 +88,7 @@ fn a_step_below_the_limit_of_the_oscillator_is_not_suspected() {
 fn a_step_that_blows_up_at_once_is_explained_by_its_size() {
     // hλ = 10⁴: infinite within a few dozen steps
     for formula in [Formula::Rk4, Formula::Dopri5, Formula::Dop853] {
-        let settings = settings(Method::fixed(formula, 0.1), 1000.0);
+        let settings = settings(Integrator::fixed(formula, 0.1), 1000.0);
         let (watch, result) = watched::<Stiff>(None, &settings, ENERGY_LIMIT);
         assert!(result.is_err(), "{formula}");
         let (rate, index) = step_of(&watch).unwrap_or_else(|| panic!("{formula}"));
@@ -102,7 +102,7 @@ fn steps_under_error_control_are_stable_and_not_suspected() {
     // λ = −10⁵ 1/s over 0.01 s: stability bounds the steps, at loose tolerances too
     for formula in Formula::ALL.into_iter().filter(|f| f.estimates_error()) {
         for tolerance in [1e-2, 1e-3, 1e-5] {
-            let method = Method::adaptive(formula, Tolerances::uniform(tolerance));
+            let method = Integrator::adaptive(formula, Tolerances::uniform(tolerance));
             let settings = settings(method, 0.01);
             let (watch, result) = watched::<Stiff>(None, &settings, ENERGY_LIMIT);
             assert!(result.is_ok(), "{formula} at {tolerance}: {result:?}");
@@ -115,7 +115,7 @@ fn steps_under_error_control_are_stable_and_not_suspected() {
 fn what_is_missing_in_the_balance_is_found_since_when() {
     // a power of which a tenth is not told from 0.5 s on: T = ½ t², W = 0.45 t² + const
     let of = |limit: f64| {
-        let settings = settings(Method::default(), 1.0);
+        let settings = settings(Integrator::default(), 1.0);
         let (watch, result) = watched::<Leaky>(None, &settings, limit);
         assert!(result.is_ok());
         watch.diagnostics().next()
@@ -137,7 +137,7 @@ fn what_is_missing_in_the_balance_is_found_since_when() {
 #[test]
 fn a_slow_loss_of_the_energy_of_a_pendulum_is_found() {
     // |R(ihω)|² = 1 + (hω)⁴/4 of modified Euler: 5 % in 2000 steps of hω = 0.1, while 32 periods exchange 128 times the energy
-    let settings = settings(Method::fixed(Formula::Heun, 0.1), 200.0);
+    let settings = settings(Integrator::fixed(Formula::Heun, 0.1), 200.0);
     let (watch, _) = watched::<Stage>(None, &settings, ENERGY_LIMIT);
     let exchanged = watch.balance.exchanged;
     let gap = watch.balance.gap().abs();
@@ -147,7 +147,7 @@ fn a_slow_loss_of_the_energy_of_a_pendulum_is_found() {
         Some(Problem::Energy { .. })
     ));
     let settings = Settings {
-        method: Method::default(),
+        method: Integrator::default(),
         ..settings
     };
     assert_eq!(
@@ -161,7 +161,7 @@ fn a_slow_loss_of_the_energy_of_a_pendulum_is_found() {
 
 /// Coordinate and velocity of x = cos t at the end of so many steps, and their estimated errors.
 fn swung(formula: Formula, step: f64, steps: f64) -> [[f64; 2]; 2] {
-    let settings = settings(Method::fixed(formula, step), steps * step);
+    let settings = settings(Integrator::fixed(formula, step), steps * step);
     let model = Oscillator::new(ParameterSet::defaults());
     let mut watch = Watch::new(Oscillator::INFO, f64::INFINITY);
     let mut last = [0.0; 2];

@@ -8,7 +8,7 @@ use bryant_study::file::StudyFile;
 use bryant_study::hash;
 use bryant_study::response::What;
 use bryant_study::store::identity::{Identity, Program};
-use bryant_study::study::{Listed, Method, Plan, RandomDesign, RunSettings, Study, TableKind};
+use bryant_study::study::{LaneFormula, Listed, Plan, RandomDesign, RunSettings, Study, TableKind};
 use std::path::Path;
 
 fn facts() -> ModelFacts {
@@ -143,8 +143,11 @@ fn run(settings: &str) -> Result<RunSettings, Diagnostics> {
 fn fixed_steps_have_a_method_and_no_accuracy() {
     let steps = |settings: &str| run(settings).unwrap().step.unwrap();
     let found = steps("{ step: 0.05 ms }");
-    assert_eq!((found.length, found.method), (0.05 * 1e-3, Method::Rk4));
-    for method in Method::ALL {
+    assert_eq!(
+        (found.length, found.method),
+        (0.05 * 1e-3, LaneFormula::Rk4)
+    );
+    for method in LaneFormula::ALL {
         let found = steps(&format!("{{ step: 1e-4, method: {} }}", method.word()));
         assert_eq!((found.length, found.method), (1e-4, method));
     }

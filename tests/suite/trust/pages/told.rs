@@ -31,7 +31,7 @@ fn slope(body: &Moving, direction: usize, energy: &dyn Fn(&Moving) -> f64) -> f6
 /// A fading edge: force and moment together are the gradient of the energy w ∫ f dδ. The moment is that of an ellipsoid; of a sphere it is 0.
 #[test]
 fn an_edge_that_fades_turns_an_ellipsoid() {
-    let scene = Scene::new(
+    let scene = FreeBody::new(
         "contact: c, ellipsoid: { on: one/body, center: [0, 0, 0], semi_axes: [0.12, 0.09, 0.15] }, plane: { on: frame, at: [0, 0, 0], normal: [0.2, -0.3, 1], along: [1, 0.4, -0.1], extent: [0.3, 0.2], edge: { rule: fade, width: 0.15 } }, elastic: { points: [[0, 0], [0.1, 800]], extrapolate: linear }",
         "",
     );
@@ -78,8 +78,8 @@ fn an_edge_that_fades_turns_an_ellipsoid() {
 }
 
 /// Belt over a ring, with the words `more`.
-fn over_a_ring(more: &str) -> Scene {
-    Scene::new(
+fn over_a_ring(more: &str) -> FreeBody {
+    FreeBody::new(
         &format!(
             "belt: b, from: {{ on: frame, at: [-1, 0, 0.3] }}, through: [{{ ring: r, on: one/body, at: [0.1, -0.05, 0.02] }}], to: {{ on: frame, at: [1, 0.2, 0] }}, force: {{ points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }}, length: 1.7, {more}"
         ),
@@ -172,7 +172,7 @@ fn the_damping_of_a_segment_grows_with_its_own_stretch() {
 #[test]
 fn a_limiter_pays_out_by_the_stretch_alone() {
     let law = |damping: &str| {
-        Scene::new(
+        FreeBody::new(
             &format!(
                 "belt: b, from: {{ on: one/body, at: [0.1, -0.05, 0.02] }}, to: {{ on: frame, at: [1, 0, 0] }}, force: {{ points: [[0, 0], [0.1, 500], [1, 2000]], extrapolate: linear }}, length: 0.8, limiter: {{ force: 700 }}{damping}"
             ),

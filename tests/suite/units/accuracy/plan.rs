@@ -1,5 +1,5 @@
 use bryant::accuracy::plan;
-use bryant::accuracy::plan::{Range, Request, Scene, Series, series};
+use bryant::accuracy::plan::{ModelFeatures, Range, Request, Series, series};
 use bryant::accuracy::setting::{Pace, Scheme, Setting};
 use bryant_runtime::Formula;
 use bryant_runtime::program::Scalar;
@@ -13,7 +13,7 @@ fn request(quick: bool) -> Request {
     }
 }
 
-const ALL: Scene = Scene {
+const ALL: ModelFeatures = ModelFeatures {
     kinks: true,
     sines: true,
 };
@@ -75,7 +75,7 @@ fn every_formula_is_run_every_way() {
 
 #[test]
 fn what_cannot_differ_is_not_run() {
-    let none = Scene {
+    let none = ModelFeatures {
         kinks: false,
         sines: false,
     };

@@ -1,17 +1,20 @@
 use bryant::command::Error;
 use bryant::command::outputs::{NOWHERE, Outputs, Replacing, exists_on_windows, picture};
-use bryant::signature::Kind;
+use bryant::signature::ContentKind;
 use std::path::{Path, PathBuf};
 
 #[test]
 fn places_are_taken_once() {
     let mut outputs = Outputs::of(&[PathBuf::from("model.yaml")], Replacing::default());
-    let mut told =
-        |option: &str, path: &str| match outputs.take(option, Path::new(path), Kind::Table) {
-            Ok(()) => String::new(),
-            Err(Error::Input(message)) => message,
-            Err(error) => panic!("{error:?}"),
-        };
+    let mut told = |option: &str, path: &str| match outputs.take(
+        option,
+        Path::new(path),
+        ContentKind::Table,
+    ) {
+        Ok(()) => String::new(),
+        Err(Error::Input(message)) => message,
+        Err(error) => panic!("{error:?}"),
+    };
     assert_eq!(told("--csv", "a.csv"), "");
     let message = told("--picture", "./a.csv");
     assert!(message.starts_with("--csv and --picture both write to ./a.csv"));

@@ -1,7 +1,7 @@
-use bryant::report::plots::{Place, plots};
+use bryant::report::plots::{Measurand, plots};
 
-fn at(what: &str, place: &str) -> Place {
-    Place {
+fn at(what: &str, place: &str) -> Measurand {
+    Measurand {
         what: what.into(),
         place: place.into(),
     }
@@ -37,7 +37,7 @@ fn components_stand_together_and_lonely_outputs_with_their_like() {
 
 #[test]
 fn a_plot_has_six_curves_and_small_ones_are_not_beside_large_ones() {
-    let places: Vec<Place> = (0..14)
+    let places: Vec<Measurand> = (0..14)
         .map(|k| at("contact force", &k.to_string()))
         .collect();
     let sizes: Vec<f64> = (0..14)

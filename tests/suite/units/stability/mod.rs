@@ -4,13 +4,13 @@ use bryant::stability::report::text::{summary, text};
 use bryant::stability::{Outcome, run};
 use bryant_generator::model::Model;
 use bryant_hard::{Bench, Case, Engine, Trouble};
-use bryant_hard::{Call, Group, Run, Scene};
+use bryant_hard::{Call, CaseModel, Group, Run};
 use bryant_runtime::program::Job;
 
 struct Nothing;
 
 impl Engine for Nothing {
-    fn run(&self, _: &Scene, _: &Job) -> Result<Run, Trouble> {
+    fn run(&self, _: &CaseModel, _: &Job) -> Result<Run, Trouble> {
         Err(Trouble::System("nothing runs here".into()))
     }
 

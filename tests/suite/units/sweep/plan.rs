@@ -7,7 +7,7 @@ fn run(step: Option<f64>, accuracy: Option<f64>, precision: Precision) -> RunSet
         accuracy,
         step: step.map(|length| FixedSteps {
             length,
-            method: study::Method::Merson,
+            method: study::LaneFormula::Merson,
         }),
         precision,
         ..RunSettings::default()
@@ -16,7 +16,7 @@ fn run(step: Option<f64>, accuracy: Option<f64>, precision: Precision) -> RunSet
 
 #[test]
 fn names_of_methods_are_those_of_the_runtime() {
-    for method in study::Method::ALL {
+    for method in study::LaneFormula::ALL {
         let mut run = run(Some(1e-3), None, Precision::Double);
         run.step = run.step.map(|step| FixedSteps { method, ..step });
         let pace = pace(&run, 1.0).unwrap();

@@ -1,19 +1,21 @@
-use bryant_generator::description::expression::{Expression, Function, Kind, Operator, parse};
+use bryant_generator::description::expression::{
+    Expression, ExpressionKind, Function, Operator, parse,
+};
 
 /// Value in SI with all parameters 3.
 fn value(e: &Expression) -> f64 {
     match &e.kind {
-        Kind::Number(v) => *v,
-        Kind::Quantity(v, unit) => v * unit.factor,
-        Kind::Parameter(_) => 3.0,
-        Kind::Negative(a) => -value(a),
-        Kind::Binary(Operator::Add, a, b) => value(a) + value(b),
-        Kind::Binary(Operator::Subtract, a, b) => value(a) - value(b),
-        Kind::Binary(Operator::Multiply, a, b) => value(a) * value(b),
-        Kind::Binary(Operator::Divide, a, b) => value(a) / value(b),
-        Kind::Call(Function::SquareRoot, a) => value(a).sqrt(),
-        Kind::Call(Function::Sine, a) => value(a).sin(),
-        Kind::Call(Function::Cosine, a) => value(a).cos(),
+        ExpressionKind::Number(v) => *v,
+        ExpressionKind::Quantity(v, unit) => v * unit.factor,
+        ExpressionKind::Parameter(_) => 3.0,
+        ExpressionKind::Negative(a) => -value(a),
+        ExpressionKind::Binary(Operator::Add, a, b) => value(a) + value(b),
+        ExpressionKind::Binary(Operator::Subtract, a, b) => value(a) - value(b),
+        ExpressionKind::Binary(Operator::Multiply, a, b) => value(a) * value(b),
+        ExpressionKind::Binary(Operator::Divide, a, b) => value(a) / value(b),
+        ExpressionKind::Call(Function::SquareRoot, a) => value(a).sqrt(),
+        ExpressionKind::Call(Function::Sine, a) => value(a).sin(),
+        ExpressionKind::Call(Function::Cosine, a) => value(a).cos(),
     }
 }
 

@@ -7,7 +7,7 @@ fn curve(extrapolate: Extrapolate) -> Curve {
         points: vec![[0.0, 0.0], [1.0, 2.0], [3.0, 3.0]],
         interpolate: Interpolate::Linear,
         extrapolate,
-        told: true,
+        states_extrapolation: true,
         thinned: None,
     }
 }
@@ -73,7 +73,7 @@ fn cubic(points: &[[f64; 2]], extrapolate: Extrapolate) -> Curve {
         points: points.to_vec(),
         interpolate: Interpolate::Cubic,
         extrapolate,
-        told: true,
+        states_extrapolation: true,
         thinned: None,
     }
 }

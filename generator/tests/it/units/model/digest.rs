@@ -4,14 +4,14 @@ use bryant_generator::model::digest::write_value;
 struct Old {
     b: f64,
     a: Vec<Option<usize>>,
-    c: Kind,
+    c: Variant,
 }
 
 #[derive(serde::Serialize)]
 struct New<'a> {
     a: Vec<Option<usize>>,
     b: f64,
-    c: Kind,
+    c: Variant,
     flag: bool,
     more: Vec<f64>,
     name: &'a str,
@@ -19,7 +19,7 @@ struct New<'a> {
 }
 
 #[derive(serde::Serialize)]
-enum Kind {
+enum Variant {
     Plain,
     With(f64),
 }
@@ -33,7 +33,7 @@ fn text(value: &impl serde::Serialize) -> String {
 /// Types, order and fields that say nothing leave no trace; whatever says something does.
 #[test]
 fn a_text_has_what_is_said() {
-    let kinds = || [Kind::Plain, Kind::With(0.1)];
+    let kinds = || [Variant::Plain, Variant::With(0.1)];
     let old = kinds().map(|c| {
         text(&Old {
             b: f64::INFINITY,

@@ -7,7 +7,7 @@ fn curve(count: u32, interpolate: Interpolate, of: impl Fn(f64) -> f64) -> Curve
         points: (0..count).map(|i| [x(i), of(x(i))]).collect(),
         interpolate,
         extrapolate: Extrapolate::Hold,
-        told: false,
+        states_extrapolation: false,
         thinned: None,
     }
 }

@@ -8,7 +8,7 @@ fn curve(points: &[[f64; 2]], extrapolate: Extrapolate) -> Curve {
         points,
         interpolate: Interpolate::Linear,
         extrapolate,
-        told: true,
+        states_extrapolation: true,
         thinned: None,
     }
 }

@@ -12,8 +12,8 @@ pub struct Avx2Singles(__m256);
 
 impl Instructions for Avx2Singles {
     #[inline(always)]
-    fn there() -> bool {
-        Avx2::there()
+    fn is_available() -> bool {
+        Avx2::is_available()
     }
 
     #[inline(always)]

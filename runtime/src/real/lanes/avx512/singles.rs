@@ -12,8 +12,8 @@ pub struct Avx512Singles(__m512);
 
 impl Instructions for Avx512Singles {
     #[inline(always)]
-    fn there() -> bool {
-        Avx512::there()
+    fn is_available() -> bool {
+        Avx512::is_available()
     }
 
     #[inline(always)]

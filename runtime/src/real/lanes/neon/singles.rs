@@ -12,8 +12,8 @@ pub struct NeonSingles(float32x4_t);
 
 impl Instructions for NeonSingles {
     #[inline(always)]
-    fn there() -> bool {
-        Neon::there()
+    fn is_available() -> bool {
+        Neon::is_available()
     }
 
     #[inline(always)]

@@ -6,19 +6,19 @@ use bryant_generator::read_str;
 use std::io;
 use std::path::Path;
 
-/// A model as text.
+/// The model of a case, as text.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Scene {
+pub struct CaseModel {
     /// The name of its file in messages.
     pub name: String,
     /// Its YAML text.
     pub text: String,
 }
 
-impl Scene {
+impl CaseModel {
     /// A scene of this name and YAML.
-    pub fn new(name: impl Into<String>, text: impl Into<String>) -> Scene {
-        Scene {
+    pub fn new(name: impl Into<String>, text: impl Into<String>) -> CaseModel {
+        CaseModel {
             name: name.into(),
             text: text.into(),
         }
@@ -39,7 +39,7 @@ impl Scene {
 #[macro_export]
 macro_rules! scene {
     ($name:literal) => {
-        $crate::scene::Scene::new(
+        $crate::case_model::CaseModel::new(
             $name,
             include_str!(concat!(
                 env!("CARGO_MANIFEST_DIR"),

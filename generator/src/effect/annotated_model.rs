@@ -4,12 +4,12 @@
 use super::structure::idle_parameters;
 use super::{Effect, Entry, Reason, of_model};
 use crate::model::Force;
+use crate::model::annotated_model::AnnotatedModel;
+use crate::model::annotated_model::SourceLine;
 use crate::model::part::Field;
-use crate::model::scene::Place;
-use crate::model::scene::Scene;
 
 /// The effects of a scene, in the order of the model. Switched-off effects stand after the others of their kind.
-pub fn of_scene(scene: &Scene) -> Vec<Entry> {
+pub fn of_annotated_model(scene: &AnnotatedModel) -> Vec<Entry> {
     let model = &scene.model;
     let mut entries = of_model(model);
     let idle = idle_parameters(model);
@@ -42,7 +42,7 @@ pub fn of_scene(scene: &Scene) -> Vec<Entry> {
 }
 
 /// The first line that calls for an effect.
-fn place(scene: &Scene, effect: Option<Effect>) -> Option<Place> {
+fn place(scene: &AnnotatedModel, effect: Option<Effect>) -> Option<SourceLine> {
     let effect = effect?;
     let owner = effect.owner(&scene.model);
     let keys = effect.keys(&scene.model);
@@ -51,7 +51,7 @@ fn place(scene: &Scene, effect: Option<Effect>) -> Option<Place> {
 }
 
 /// Adds the terms of a force that the text mentions but the model does not have.
-fn mentioned_in_vain(scene: &Scene, force: usize, entries: &mut Vec<Entry>) {
+fn mentioned_in_vain(scene: &AnnotatedModel, force: usize, entries: &mut Vec<Entry>) {
     let model = &scene.model;
     let written = &scene.written.forces[force];
     let name = Effect::Force { force }.name(&scene.written);
@@ -106,7 +106,7 @@ fn first(entries: &[Entry], such: impl Fn(Effect) -> bool) -> usize {
 }
 
 /// Adds the parameters that the text declares but that nothing depends on.
-fn unused_parameters(scene: &Scene, entries: &mut Vec<Entry>) {
+fn unused_parameters(scene: &AnnotatedModel, entries: &mut Vec<Entry>) {
     let unused = scene.unused_parameters();
     let before = first(entries, |effect| matches!(effect, Effect::Output(_)));
     let unused = unused.into_iter().map(|(name, why)| {
@@ -117,7 +117,7 @@ fn unused_parameters(scene: &Scene, entries: &mut Vec<Entry>) {
     entries.splice(before..before, unused);
 }
 
-impl Scene {
+impl AnnotatedModel {
     /// The declared parameters that nothing depends on: names, and why.
     pub fn unused_parameters(&self) -> Vec<(String, String)> {
         let mut written = self.written.clone();

@@ -8,13 +8,13 @@ use super::surface::Shown;
 use crate::description::load::Loaded;
 use crate::description::long::long_form;
 use crate::description::place::At;
-use crate::description::tree::Kind;
+use crate::description::tree::NodeKind;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A model and its text.
 #[derive(Clone, Debug)]
-pub struct Scene {
+pub struct AnnotatedModel {
     /// The model in its normal form, from which code is generated.
     pub model: Model,
     /// The model with everything that the text mentions, including zeros and unused parts. Forces that are switched off
@@ -25,7 +25,7 @@ pub struct Scene {
     /// The criteria by which a run is judged, if the text has any.
     pub criteria: Option<Criteria>,
     /// The places of all parts in the text.
-    pub places: Places,
+    pub places: SourceLines,
     /// Every file that was read, the model's own file first.
     pub read: Vec<PathBuf>,
     /// The model in its long form, as one file: lists, mirror images, named surfaces and instances written out.
@@ -34,15 +34,15 @@ pub struct Scene {
     pub notes: Vec<String>,
 }
 
-impl Scene {
+impl AnnotatedModel {
     /// The scene of a model that was read from these texts.
     pub(crate) fn of(resolved: Resolved, loaded: Loaded) -> Self {
-        Scene {
+        AnnotatedModel {
             model: resolved.model,
             written: resolved.written,
             off: resolved.off,
             criteria: resolved.criteria,
-            places: Places::of(&loaded, &resolved.owners),
+            places: SourceLines::of(&loaded, &resolved.owners),
             long_form: long_form(&loaded),
             read: loaded.paths,
             notes: Vec::new(),
@@ -63,7 +63,7 @@ impl Scene {
 
 /// A line of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Place {
+pub struct SourceLine {
     /// Name of the file, as it was given.
     pub file: String,
     /// Number of the line, from 1.
@@ -75,14 +75,14 @@ pub struct Place {
 /// Places, by owner ("contact seat-back", "parameter mu", "element man/head", "model") and by the key below the owner
 /// ("about.x.friction", "acceleration\[0\]"; "" for the owner itself).
 #[derive(Clone, Debug, Default)]
-pub struct Places {
-    places: BTreeMap<String, BTreeMap<String, Place>>,
+pub struct SourceLines {
+    places: BTreeMap<String, BTreeMap<String, SourceLine>>,
 }
 
 /// Values longer than this are not shown \[characters\].
 const LONGEST_TEXT: usize = 32;
 
-impl Places {
+impl SourceLines {
     /// Replaces each line number by that of another text, and drops places without a line in that text.
     fn keep(&mut self, line_there: impl Fn(usize) -> Option<usize>) {
         for keys in self.places.values_mut() {
@@ -95,7 +95,7 @@ impl Places {
     }
 
     /// The place of a key of an owner.
-    pub fn get(&self, owner: &str, key: &str) -> Option<&Place> {
+    pub fn get(&self, owner: &str, key: &str) -> Option<&SourceLine> {
         self.places.get(owner)?.get(key)
     }
 
@@ -108,7 +108,7 @@ impl Places {
     /// The places of all parts; `owners` has the law and the name of each force.
     fn of(loaded: &Loaded, owners: &[String]) -> Self {
         let mut owners = owners.iter();
-        let mut places = Places::default();
+        let mut places = SourceLines::default();
         for file in &loaded.files {
             let top = file.source.at();
             if let Some(last) = loaded.files.last()
@@ -162,15 +162,15 @@ impl Places {
     /// Adds everything below a place. If several files have the same key, the last one counts.
     fn below(&mut self, owner: &str, prefix: &str, at: At<'_>, but: &[&str]) {
         match &at.node.kind {
-            Kind::Scalar { .. } => {}
-            Kind::List(items) => {
+            NodeKind::Scalar { .. } => {}
+            NodeKind::List(items) => {
                 for index in 0..items.len() {
                     let (key, item) = (format!("{prefix}[{index}]"), at.item(index));
                     self.enter(owner, &key, item);
                     self.below(owner, &key, item, but);
                 }
             }
-            Kind::Map(entries) => {
+            NodeKind::Map(entries) => {
                 for entry in entries {
                     // There are many points, and none of them is an effect.
                     if entry.key == "points" || but.contains(&entry.key.as_str()) {
@@ -191,14 +191,14 @@ impl Places {
     fn enter(&mut self, owner: &str, key: &str, at: At<'_>) {
         let name = key.rsplit('.').next().unwrap_or_default();
         let text = match &at.node.kind {
-            Kind::Scalar { text, .. }
+            NodeKind::Scalar { text, .. }
                 if text.chars().count() <= LONGEST_TEXT && !name.is_empty() =>
             {
                 format!("{name}: {}", text.escape_debug())
             }
             _ => name.to_owned(),
         };
-        let place = Place {
+        let place = SourceLine {
             file: at.source.name.clone(),
             line: at.of_key().line,
             text,
@@ -208,7 +208,7 @@ impl Places {
     }
 }
 
-impl std::fmt::Display for Place {
+impl std::fmt::Display for SourceLine {
     /// Writes `models/sled.yaml:12`.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{}:{}", self.file, self.line)
