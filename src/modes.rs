@@ -4,7 +4,7 @@
 //! shift beside the eigenvalue, which also sharpens it by Rayleigh's quotient. It is done on the Hessenberg form, H = Qᵀ A Q, whose
 //! elimination takes n² operations.
 
-mod coincident;
+mod coincidence;
 
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Complex, DMatrix, DVector};
@@ -113,7 +113,7 @@ pub fn modes(a: &[f64], size: usize, mass: &[f64]) -> Result<Vec<Mode>, NoModes>
         small.map(shape).collect()
     };
     if !mass.is_empty() {
-        coincident::choose(&mut modes, mass, &residual, &null);
+        coincidence::choose(&mut modes, mass, &residual, &null);
     }
     Ok(modes)
 }

@@ -2,7 +2,7 @@
 //!
 //! The coordinates of a tree are those of its reference joint, if it is free, and then those of each element. An
 //! element on a ball joint has an absolute orientation: one angle in the plane, three Bryant angles or a unit
-//! quaternion (w, x, y, z) in space. Another element has the degrees of freedom of its joint, relative to its carrier.
+//! quaternion (w, x, y, z) in space. Another element has the freedoms of its joint, relative to its carrier.
 //! States in Bryant angles may be in another chart; they must be converted to [quaternions](crate::orientation) first.
 
 use bryant_engine::table;
@@ -140,14 +140,14 @@ impl Pose {
                         rotation: rotation(own),
                         origin,
                     },
-                    Joint::Freedoms(degrees_of_freedom) => {
+                    Joint::Freedoms(freedoms) => {
                         let carrier = match (element.parent, &system.reference) {
                             (Some(parent), _) => frames[parent],
                             (None, Reference::Riding { vehicle, .. }) => vehicles[*vehicle],
                             (None, _) => Frame::ABSOLUTE,
                         };
                         let mut own = own.iter();
-                        let q: Vec<f64> = (degrees_of_freedom.iter())
+                        let q: Vec<f64> = (freedoms.iter())
                             .filter_map(|freedom| match &freedom.follows {
                                 None => own.next().copied(),
                                 Some(follows) => {
@@ -158,12 +158,8 @@ impl Pose {
                                 }
                             })
                             .collect();
-                        let (rotation, origin) = placed(
-                            (carrier.rotation, origin),
-                            degrees_of_freedom,
-                            &q,
-                            parameters,
-                        );
+                        let (rotation, origin) =
+                            placed((carrier.rotation, origin), freedoms, &q, parameters);
                         Frame { rotation, origin }
                     }
                 });

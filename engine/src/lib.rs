@@ -27,7 +27,7 @@
 //! | `model` | [`Engine`], made once from the lists of a model and shared; [`Machine`], the model over one scalar |
 //! | [`batch`] | many states at once: rates, outputs, matrices, rollouts |
 //! | `load` | engines of files and texts |
-//! | `kept` | derived engines in files |
+//! | `engine_file` | derived engines in files |
 //! | `front` | runs, rows and gradients of a model, compiled here for all scalars |
 //! | `execute` | [`Execute`], the interface of everything that evaluates lists |
 //! | `interpret` | the interpreter, for any scalar |
@@ -43,15 +43,15 @@
 
 pub mod batch;
 mod call;
+mod engine_file;
 mod evaluate;
 mod execute;
 mod front;
 mod info;
 #[doc(hidden)]
-pub mod inside;
+pub mod internals;
 mod interpret;
 mod jacobian;
-mod kept;
 mod load;
 mod model;
 #[cfg_attr(
@@ -70,9 +70,9 @@ mod user;
 
 pub use batch::Batch;
 pub use call::{functions, table};
+pub use engine_file::KeptError;
 pub use execute::{Execute, Given};
 pub use interpret::Interpreter;
-pub use kept::KeptError;
 pub use load::LoadError;
 pub use model::{Engine, Error, Evaluated, Interpreted, Machine, Varying};
 pub use user::UserFunctions;

@@ -1,6 +1,6 @@
 //! Makes engines from files and texts: reads the description, derives the equations.
 
-use crate::kept::KeptError;
+use crate::engine_file::KeptError;
 use crate::model::{Engine, Error};
 use bryant_generator::Config;
 use bryant_generator::diagnostic::{Diagnostic, Diagnostics};

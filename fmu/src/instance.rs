@@ -1,6 +1,6 @@
 //! An instance: values before a run, inputs and outputs of it.
 
-use crate::running::Running;
+use crate::owned_run::Running;
 use crate::setting::{Setting, token};
 use crate::variables::{Of, Variable, variables};
 use bryant_engine::Engine;

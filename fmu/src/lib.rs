@@ -16,7 +16,7 @@
 
 mod description;
 mod instance;
-mod running;
+mod owned_run;
 mod setting;
 mod variables;
 

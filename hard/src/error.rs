@@ -7,7 +7,7 @@
 //! a ton hide all errors of masses of a gram; in the second, nothing is hidden, and units do not matter.
 
 use crate::balance::{Posture, Tree};
-use crate::symmetric::Factors;
+use crate::symmetric_matrix::Factors;
 use bryant_runtime::{DoubleDouble, Real};
 
 /// Backward errors of accelerations at a state.

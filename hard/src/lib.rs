@@ -19,7 +19,7 @@ pub mod meeting;
 pub mod random;
 pub mod rounding;
 pub mod survey;
-pub mod symmetric;
+pub mod symmetric_matrix;
 
 mod blow_up;
 mod chains;
@@ -32,8 +32,8 @@ mod mass_and_shape;
 mod measure;
 mod non_smoothness;
 mod orientation;
-mod passing;
 mod precision;
+mod short_events;
 mod stiff_chains;
 mod stiffness;
 mod tree;
@@ -51,7 +51,7 @@ pub fn cases() -> Vec<Case> {
         stiffness::CASES,
         stiff_chains::CASES,
         non_smoothness::CASES,
-        passing::CASES,
+        short_events::CASES,
         meeting::CASES,
         precision::CASES,
         length::CASES,

@@ -153,11 +153,11 @@
 //! | [`response`] | one number for a whole signal: peaks, injury criteria |
 //! | [`simulate`](mod@simulate) | a sampled run; [`failure`]: how it can fail |
 //! | `batch` (feature `std`) | many runs at once, one in each lane of a register |
-//! | `apart` (feature `std`) | models and functions that are compiled apart and loaded: calls with plain numbers |
+//! | `ffi` (feature `std`) | models and functions that are compiled apart and loaded: calls with plain numbers |
 //! | `program` (feature `std`) | a run described by a few words and delivered as a stream: the stand-alone program |
 //! | `source` (feature `embedded-source`) | the text of this crate, for compiling a scene on demand |
 //!
-//! Nothing allocates and nothing needs the standard library, except `apart`, `batch` and `program`; `real::lanes` needs
+//! Nothing allocates and nothing needs the standard library, except `ffi`, `batch` and `program`; `real::lanes` needs
 //! `libm` without it. Without both the crate still builds, but `f64` and `f32` then have no square roots and are no
 //! scalars; [`DoubleDouble`] has its own.
 #![cfg_attr(not(test), warn(clippy::disallowed_methods))]

@@ -23,34 +23,34 @@ macro_rules! without_slopes {
 
 #[cfg(feature = "std")]
 mod array;
+#[cfg(any(feature = "std", feature = "libm", test))]
+mod core_arithmetic;
 mod double_double;
 mod dual;
 #[cfg(any(feature = "std", feature = "libm", test))]
-mod fast;
+mod fast_scalar;
 #[cfg(any(feature = "std", feature = "libm", test))]
 pub mod lanes;
 #[cfg(feature = "std")]
 mod layout;
 #[cfg(not(bryant_equations))]
 mod number;
-#[cfg(any(feature = "std", feature = "libm", test))]
-mod plain;
 mod words;
 
 #[cfg(feature = "std")]
 pub use array::{Array2, Array4, Array8};
+#[cfg(any(feature = "std", feature = "libm", test))]
+use core_arithmetic::Plain;
 pub use double_double::DoubleDouble;
 pub use dual::Dual;
 #[cfg(any(feature = "std", feature = "libm", test))]
-pub use fast::Fast;
+pub use fast_scalar::Fast;
 #[cfg(feature = "std")]
 pub use lanes::{Several, Width};
 #[cfg(feature = "std")]
 pub use layout::Layout;
 #[cfg(not(bryant_equations))]
 pub(crate) use number::Number;
-#[cfg(any(feature = "std", feature = "libm", test))]
-use plain::Plain;
 pub use words::{Base, Form};
 
 #[cfg(not(bryant_equations))]

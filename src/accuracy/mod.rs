@@ -13,7 +13,7 @@
 //! | [`run`] | one run of a setting, and its states |
 //! | [`point`], [`study`] | the result of one setting; the results of all of them |
 //! | [`front`], [`conclusion`] | the best settings, and a sentence about them |
-//! | [`fastest`] | the motion that limits the steps of explicit methods |
+//! | [`fastest_motion`] | the motion that limits the steps of explicit methods |
 //! | [`report`] | a study as a table, a page, CSV, JSON and a diagram |
 //! | [`target`] | a run of a requested accuracy |
 //! | [`check`] | a run of the promised accuracy, checked by a second run |
@@ -26,7 +26,7 @@ pub mod comparison;
 pub mod conclusion;
 pub mod conditioning;
 pub mod difference;
-pub mod fastest;
+pub mod fastest_motion;
 pub mod front;
 pub mod norm;
 pub mod plan;

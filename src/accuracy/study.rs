@@ -9,7 +9,7 @@
 //! of the machine slows all of them down.
 
 use super::conclusion::bounded_by_stability;
-use super::fastest::{Fastest, fastest};
+use super::fastest_motion::{Fastest, fastest};
 use super::front::Cost;
 use super::plan::{self, ModelFeatures, Request, Series};
 use super::point::{Done, Measure, Point, Status, Timing, orders};

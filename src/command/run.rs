@@ -34,7 +34,7 @@ use super::progress::{Progress, Whole};
 use super::terminal::Terminal;
 use crate::accuracy::check::{self, Certainty, Checked, FAR};
 use crate::accuracy::comparison::PROMISED;
-use crate::accuracy::fastest::fastest;
+use crate::accuracy::fastest_motion::fastest;
 use crate::accuracy::target;
 use crate::build_on_demand::RustcModel;
 use crate::equations::Engine;

@@ -1,7 +1,7 @@
 //! `bryant settle`: finds a state of rest as a start of runs.
 
-mod carrying;
-mod written;
+mod start_text;
+mod supports;
 
 use super::Error;
 use super::model_argument::{Found, find};
@@ -164,7 +164,7 @@ impl Arguments {
         let found_at = EndPosition {
             farthest: watched.distance(&outputs, true),
             allowed: self.distance,
-            reasons: carrying::reasons(&found.model, engine.info(), &settled.state, &carried),
+            reasons: supports::reasons(&found.model, engine.info(), &settled.state, &carried),
         };
         refuse(&settled, worst, &found_at)?;
         doubt(&engine, &self.set_values(&found)?, &settled)?;
@@ -207,7 +207,7 @@ impl Arguments {
         terminal: &mut Terminal,
     ) -> Result<(), Error> {
         let state = match self.yaml {
-            true => written::start(&found.model, info, values, &settled.state)
+            true => start_text::start(&found.model, info, values, &settled.state)
                 .map(|text| signature::signed(&text))
                 .map_err(Error::failed)?,
             false => state_file::of_state(&found.model.name, info, 0.0, &settled.state),

@@ -1,8 +1,8 @@
 //! Runs the rows of a study: in lanes, in this process, on any number of threads.
 
-use super::alone::Alone;
+use super::stiff_row::Alone;
 use crate::accuracy::conclusion::percent;
-use crate::accuracy::fastest::fastest;
+use crate::accuracy::fastest_motion::fastest;
 use crate::accuracy::setting::time;
 use crate::equations::Engine as Equations;
 use crate::interrupt;

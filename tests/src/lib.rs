@@ -1,6 +1,6 @@
 //! Shared parts of the tests: reference data, random trees, independent evaluation.
 
-pub mod compiled;
+pub mod compiled_equations;
 pub mod laws;
 pub mod models;
 pub mod reference;

@@ -1,6 +1,6 @@
 //! The compiled test models; each model in this list is also compared with its interpreted equations.
 
-use crate::compiled::Compiled;
+use crate::compiled_equations::Compiled;
 use bryant_runtime::program::Entry;
 
 macro_rules! models {

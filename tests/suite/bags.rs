@@ -1,6 +1,6 @@
 //! Airbags, against the closed forms of a perfect gas.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use super::tables::{column, energy, run};
 use std::fs;

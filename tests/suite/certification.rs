@@ -1,7 +1,7 @@
 //! Certification tests of the Hybrid III dummies, 49 CFR Part 572: the corridors that are met, and those that are not. docs/validation.md
 //! has the same numbers.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use super::tables::{column, run};
 use std::f64::consts::PI;

@@ -1,50 +1,50 @@
 //! The command from end to end, as a user calls it: models in files, compiled on demand; output, files, and failures.
 
-mod animated;
+mod accuracy_check;
+mod animation;
 mod bags;
-mod called;
+mod belt_slip;
 mod certification;
-mod checked;
-mod comparing;
-mod continued;
+mod command_call;
+mod comparison;
+mod continuation;
 mod costs;
-mod degenerate;
-mod exported;
+mod criteria;
+mod degenerate_systems;
+mod export;
+mod file_replacement;
 mod formulas;
 mod functions;
 mod grazing;
 mod input_files;
-mod judged;
+mod large_rotations;
 mod last_screen;
 #[cfg(unix)]
-mod long;
+mod long_commands;
 mod meshes;
 mod modes;
 mod people;
 mod pictures;
 mod polarity;
 mod remarks;
-mod replacing;
 mod reports;
 mod responses;
-mod resting;
 mod robots;
 mod scenes;
 mod share;
 mod shown_units;
 mod singular;
-mod slipping;
 mod slopes;
+mod states_of_rest;
 mod stiff;
 #[cfg(unix)]
 mod streams;
 mod sweep;
 mod tables;
 mod trust;
-mod turning;
 mod units;
 
-use called::{bryant, call, expect};
+use command_call::{bryant, call, expect};
 use std::path::Path;
 use std::process::Stdio;
 

@@ -1,6 +1,6 @@
 //! What further digits cost in time: `bryant accuracy`.
 
-use super::called::call;
+use super::command_call::call;
 use super::{directory, json};
 
 /// Arguments for a study of the clock: few points, one repetition, and so much time that a pause of a busy machine does not make a point

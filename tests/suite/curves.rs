@@ -166,7 +166,7 @@ fn the_kinks_of_a_curve_are_the_same_to_the_interpreter() {
             points: points.to_vec(),
             interpolate,
             extrapolate: beyond,
-            told: true,
+            states_extrapolation: true,
             thinned: None,
         };
         let (lines, cubics) = (read(Interpolate::Linear), read(Interpolate::Cubic));

@@ -1,6 +1,6 @@
 //! Outputs with formulas: columns, responses and gradients of them are those of the outputs that they are made of.
 
-use super::called::call;
+use super::command_call::call;
 use super::json;
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! Functions of the user beside a model.
 
-use super::called::call;
+use super::command_call::call;
 use super::{json, numbers, without_a_toolchain};
 
 /// The example of the documentation page: its model and its function.

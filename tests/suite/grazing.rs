@@ -1,6 +1,6 @@
 //! Switches whose quantity exceeds its threshold for a moment within a step: each fires, in single runs and in lanes.
 
-use super::called::call;
+use super::command_call::call;
 use super::json;
 use std::path::Path;
 

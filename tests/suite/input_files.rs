@@ -1,6 +1,6 @@
 //! `bryant run --input`: an input follows a file, exactly where the motion has a closed form.
 
-use crate::called::call;
+use crate::command_call::call;
 use std::path::Path;
 use tempfile::tempdir;
 

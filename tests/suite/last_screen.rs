@@ -1,6 +1,6 @@
 //! The last screen of a run: what a person sees of it who scrolls nothing.
 
-use super::called::call;
+use super::command_call::call;
 use super::{directory, json, numbers};
 
 /// Lines and characters of a line of a terminal that nobody made larger.

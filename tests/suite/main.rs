@@ -1,19 +1,17 @@
 //! End-to-end tests of the whole chain, from text to results.
 
 mod accuracy;
-mod asked;
 mod changes;
 mod charts;
 mod closed_form;
-mod compiled;
 mod contacts;
 mod curves;
 mod elliptic;
+mod emitted_code;
 mod energy;
 mod equations;
 mod estimates;
 mod figure5;
-mod given;
 mod gradients;
 mod identity;
 mod inputs;
@@ -25,8 +23,10 @@ mod lanes;
 mod laws;
 mod momentum;
 mod motion;
+mod named_functions;
 mod operations;
-mod prescribed;
+mod prescribed_joints;
+mod prescribed_motion;
 mod robustness;
 mod scipy;
 mod share;

@@ -1,6 +1,6 @@
 //! Meshes of files in pictures, reports and animations: seen, and never part of the motion.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use serde_json::Value;
 use std::fs;

@@ -1,6 +1,6 @@
 //! `bryant modes`: frequencies, damping and shapes where they have closed forms.
 
-use crate::called::call;
+use crate::command_call::call;
 use crate::reports::page;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};

@@ -1,6 +1,6 @@
 //! `bryant human`: bodies as systems that models include.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use serde_json::Value;
 use std::fs;

@@ -1,6 +1,6 @@
 //! Pictures of a run and of a study: their views, and their formats.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! Channels of dummies have the signs of SAE J211-1: each is held against manipulations by hand, as in the table of SAE J1733, whatever the axes of the
 //! model are. No expected sign follows from a formula of the program: the hand says it.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use super::share::share;
 use serde_json::Value;

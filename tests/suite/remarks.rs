@@ -1,6 +1,6 @@
 //! What `bryant check` and `bryant run` say of mistakes, most of which leave a model valid, and that they do not say it of others.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use serde_json::Value;
 use std::fs;

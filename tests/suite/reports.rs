@@ -1,6 +1,6 @@
 //! `bryant run --report`: one complete page with the numbers of the run.
 
-use super::called::call;
+use super::command_call::call;
 use serde_json::Value;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Responses of a single run equal those of a study with one row, whatever rows the table has.
 
-use super::called::call;
+use super::command_call::call;
 use super::{directory, json};
 use serde_json::Value;
 

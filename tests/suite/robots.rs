@@ -1,6 +1,6 @@
 //! Robots from URDF are imported and run.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 
 const ARM: &str = r#"<robot name="two-arm">

@@ -1,6 +1,6 @@
 //! Units in which outputs are shown: what is shown is the same run, and criteria and files of other standards are as before.
 
-use super::called::call;
+use super::command_call::call;
 use super::{directory, json};
 use serde_json::Value;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! Positions and axes of joints that make no motion: named at the start of a run and by `check`.
 
-use super::called::call;
+use super::command_call::call;
 
 /// A body on a joint, with a force on it or without.
 fn on_a_joint(joint: &str, force: &str) -> String {

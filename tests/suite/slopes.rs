@@ -1,6 +1,6 @@
 //! `bryant gradient` across events: what an event does not touch keeps its derivatives, and what has no derivative is said.
 
-use super::called::call;
+use super::command_call::call;
 use super::{directory, json};
 use std::path::Path;
 

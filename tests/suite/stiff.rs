@@ -1,6 +1,6 @@
 //! Stiff scenes are simulated by themselves: the run changes its method, is checked, and is right. Each value follows from a formula.
 
-use super::called::call;
+use super::command_call::call;
 use super::json;
 use serde_json::Value;
 

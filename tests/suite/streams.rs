@@ -1,6 +1,6 @@
 //! The output of a command arrives, or the command says that it did not.
 
-use crate::called::{bryant, call, expect};
+use crate::command_call::{bryant, call, expect};
 use crate::{PENDULUM, directory};
 use std::fs::OpenOptions;
 use std::os::unix::process::CommandExt;

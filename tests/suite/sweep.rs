@@ -11,14 +11,14 @@
 //! | `wrong` | studies, folders and options that make no sense |
 //! | `fails` | disks that are full, folders that cannot be written |
 
-mod agrees;
-mod fails;
+mod agreement;
+mod disk_failures;
 mod folder;
-mod own;
+mod invalid_studies;
+mod own_models;
 mod reasons;
-mod same;
+mod reproducibility;
 mod steps;
-mod wrong;
 
 /// 160 short runs of the bundled child seat, in ten blocks.
 const SEAT: &str = "\

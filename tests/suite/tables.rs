@@ -1,6 +1,6 @@
 //! The tables that runs write, by columns.
 
-use super::called::call;
+use super::command_call::call;
 use super::directory;
 use std::fs;
 use std::path::Path;

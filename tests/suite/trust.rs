@@ -1,8 +1,8 @@
 //! Trust in runs: values that no law can have are refused, all other values give finite results, each law is that of its page, and a run is
 //! doubted only if there is a reason.
 
-mod combined;
 mod doubts;
+mod law_combinations;
 mod mounts;
 mod pages;
 mod refusals;

@@ -6,7 +6,7 @@ use bryant_generator::dynamics::{Options, derive_with};
 use bryant_generator::expression::evaluate::Inputs;
 use bryant_runtime::program::Entry;
 use bryant_runtime::{Model as _, ParameterSet, Section};
-use bryant_tests::compiled::Compiled;
+use bryant_tests::compiled_equations::Compiled;
 use bryant_tests::models::{self, MODELS};
 use bryant_tests::rounding::Rounded;
 use bryant_tests::runs::{Recording, run};
@@ -282,7 +282,7 @@ fn the_work_of_the_muscle_is_counted() {
 /// One text serves all scalars: f32 agrees within its own rounding, c κ ε of the arguments and of the muscle's twenty operations.
 #[test]
 fn a_function_of_the_user_computes_in_single_precision() {
-    let compiled = bryant_tests::compiled::Compiled {
+    let compiled = bryant_tests::compiled_equations::Compiled {
         path: "../models/elbow.yaml",
         entry: bundled::find("elbow").expect("it is bundled").entry,
         matrices: None,

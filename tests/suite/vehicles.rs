@@ -1,7 +1,7 @@
 //! Vehicles: bodies attached to them move relative to them as expected, wherever the vehicles are.
 
-use crate::given::{compare_with_lagrange, scaled, wave};
 use crate::motion::{close, run_with_bound};
+use crate::prescribed_motion::{compare_with_lagrange, scaled, wave};
 use bryant::evaluation::functions;
 use bryant::pose::{Layout, Numbers, Pose};
 use bryant_generator::dynamics::{Options, derive_with};

@@ -11,8 +11,8 @@
 
 pub mod common;
 
-mod compiled;
 #[cfg(bryant_nightly)]
-mod every;
+mod all_scalars;
+mod generated_rust;
 mod machine;
 mod scenes;

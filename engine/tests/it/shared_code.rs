@@ -1,6 +1,6 @@
 //! Runs of one engine share its machine code.
 
-use bryant_engine::inside::{addresses, has_machine_code};
+use bryant_engine::internals::{addresses, has_machine_code};
 use bryant_engine::{Engine, Evaluated};
 use bryant_generator::Config;
 use bryant_runtime::Adjustable;

@@ -4,6 +4,7 @@ use super::criteria::Criteria;
 use super::curve::{self, Curve};
 use super::expand::instance::rename;
 use super::expand::{Known, expand};
+use super::file_content;
 use super::force::Force;
 use super::language::Language;
 use super::mend::{Lost, mend, take_out};
@@ -16,14 +17,13 @@ use super::place::At;
 use super::run::Run;
 use super::schema::{Schema, numbers};
 use super::shape::{Misfit, Named, Problems, Record, Shape, misfit, record, words};
-use super::short::{Include, Mirror};
+use super::short_forms::{Include, Mirror};
 use super::surface::Surface;
 use super::switch::Switch;
 use super::system::System;
 use super::table::Table;
 use super::tree::{MAX_BYTES, Node, NodeKind, Source};
 use super::vehicle::Vehicle;
-use super::what;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted, suggestion};
 use bryant_table::mme::{self, NoChannel, Test, Wrong};
 use serde_yaml::Value;
@@ -171,18 +171,18 @@ impl Shape for Dimension {
 /// The kind of a file, and what else it may be.
 trait Document: Record {
     /// What it is in place of this, if that is known, and what to do with it.
-    fn instead(root: &Node, name: &str) -> Option<what::What>;
+    fn instead(root: &Node, name: &str) -> Option<file_content::What>;
 }
 
 impl Document for Model {
-    fn instead(root: &Node, name: &str) -> Option<what::What> {
-        what::instead_of_model(root, name)
+    fn instead(root: &Node, name: &str) -> Option<file_content::What> {
+        file_content::instead_of_model(root, name)
     }
 }
 
 impl Document for Included {
-    fn instead(root: &Node, name: &str) -> Option<what::What> {
-        what::instead_of_part(root, name)
+    fn instead(root: &Node, name: &str) -> Option<file_content::What> {
+        file_content::instead_of_part(root, name)
     }
 }
 
@@ -266,7 +266,7 @@ pub fn read_file(path: &Path) -> io::Result<String> {
     if of_test {
         return Ok(mme::decoded(bytes));
     }
-    String::from_utf8(bytes).map_err(|error| match what::of_bytes(error.as_bytes()) {
+    String::from_utf8(bytes).map_err(|error| match file_content::of_bytes(error.as_bytes()) {
         Some(what) => io::Error::new(io::ErrorKind::InvalidData, what),
         None => io::ErrorKind::InvalidData.into(),
     })
@@ -423,7 +423,7 @@ impl Reader<'_> {
     fn model(&mut self, name: &str, text: &str) -> Option<Header> {
         let path = normal(Path::new(name));
         self.paths.push(path.clone());
-        if let Some((what, help)) = what::of_text(text) {
+        if let Some((what, help)) = file_content::of_text(text) {
             self.problems.add(Diagnostic::of_file(
                 name,
                 format!("this is {what}, no model"),

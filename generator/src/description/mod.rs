@@ -5,7 +5,7 @@
 //! ```
 //!
 //! One mistake hides no other: what is wrong is reported and [taken out](mend), and the rest is read and resolved. [`slip`] names slips of the
-//! pen, [`what`] what a file is that is no model.
+//! pen, [`file_content`] what a file is that is no model.
 //!
 //! Unknown keys are errors. Limits keep hostile text from costing time: files up to 16 MiB, nesting up to 32, 2000
 //! elements, 10 000 points of a curve, 10 000 entries of any other list, 64 files; no aliases, anchors and tags.
@@ -15,11 +15,12 @@ pub mod curve;
 pub mod element;
 pub mod expand;
 pub mod expression;
+pub mod file_content;
 pub mod force;
 pub mod joint;
 pub mod language;
 pub mod load;
-pub mod long;
+pub mod long_form;
 pub mod measure;
 pub mod mend;
 pub mod mesh;
@@ -34,7 +35,7 @@ pub mod rule;
 pub mod run;
 pub mod schema;
 pub mod shape;
-pub mod short;
+pub mod short_forms;
 pub mod slip;
 pub mod surface;
 pub mod switch;
@@ -44,7 +45,6 @@ mod token;
 pub mod tree;
 mod value;
 pub mod vehicle;
-pub mod what;
 
 pub use bryant_table::unit;
 
@@ -59,12 +59,12 @@ pub fn vocabulary(language: &Language) -> Vec<(&'static str, Vec<Key>)> {
     let mut all = vec![
         of::<load::Model>(),
         of::<load::Included>(),
-        of::<short::Instance>(),
-        of::<short::Person>(),
-        of::<short::Human>(),
-        of::<short::HumanAngles>(),
-        of::<short::Part>(),
-        of::<short::Mirror>(),
+        of::<short_forms::Instance>(),
+        of::<short_forms::Person>(),
+        of::<short_forms::Human>(),
+        of::<short_forms::HumanAngles>(),
+        of::<short_forms::Part>(),
+        of::<short_forms::Mirror>(),
         of::<parameter::Parameter>(),
         of::<quantity::Param>(),
         of::<curve::Curve>(),

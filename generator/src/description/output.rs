@@ -4,7 +4,7 @@ use super::place::At;
 use super::point::Point;
 use super::schema::{Schema, any_of};
 use super::shape::{Misfit, Named, Problems, Shape, check_record, record, words};
-use super::short::Each;
+use super::short_forms::Each;
 use serde_yaml::Value;
 
 record! {

@@ -5,7 +5,7 @@ use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
 use super::shape::Shape as _;
-use super::short::{Part as Written, PartName};
+use super::short_forms::{Part as Written, PartName};
 use super::tree;
 use crate::car_part::{CarPart, CarPartKind};
 use crate::diagnostic::quoted;

@@ -4,7 +4,7 @@ use super::place::At;
 use super::quantity::Quantity;
 use super::shape::Problems;
 use super::shape::Shape as _;
-use super::short::{Human, HumanAngles, HumanName, HumanNeutral, HumanPosture, HumanSex};
+use super::short_forms::{Human, HumanAngles, HumanName, HumanNeutral, HumanPosture, HumanSex};
 use super::tree::NodeKind;
 use super::unit::{Dimension, unit};
 use crate::diagnostic::quoted;

@@ -1,6 +1,6 @@
 //! Finds the curves that are functions of time, curve(rate · t), and their rates.
 
-use crate::expression::live::{Dependence, Live};
+use crate::expression::liveness::{Dependence, Live};
 use crate::expression::{Function, Graph, Node, NodeId, Symbol};
 
 /// The curves that the roots evaluate at multiples of time: for each the index of the curve and the node of the factor.

@@ -4,8 +4,8 @@
 //!
 //! x are the velocities of a free reference joint, and k those of element k. j is inboard of k, and c is the child of j
 //! on the way to k. E holds the columns e_j, and D_k(v) the columns e_j × v. M, w and J are mass, first moment and
-//! inertia of the [augmented body](super::augmented). Elements on different branches, and different systems, are not
-//! coupled; these entries are absent.
+//! inertia of the [augmented body](super::augmented_body). Elements on different branches, and different systems, are
+//! not coupled; these entries are absent.
 //!
 //! Systems with other joints get S from [composite bodies](super::spatial).
 

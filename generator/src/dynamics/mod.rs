@@ -6,7 +6,7 @@
 //! | r_s = −(bias forces) | Coriolis and centrifugal forces with the sign reversed | `bias_forces`, `spatial/inverse_dynamics` |
 //! | r_k | generalised applied forces | `applied_forces`, `spatial/inverse_dynamics`; the laws are in `law/` |
 //! | H = (s, e) | columns of a joint: motion subspace | `motion/` |
-//! | M, b, J | augmented body | `augmented` |
+//! | M, b, J | augmented body | `augmented_body` |
 //! | K, B, J | articulated inertia | `elimination/`, `spatial/articulated_body`, `link/` |
 //! | D = Hᵀ I H | joint-space inertia, I being the articulated one | `Ldl` of `factorization`, called from `elimination/`, `spatial/articulated_body`, `link/` |
 //! | what is asked for by name | inverse dynamics, Jacobians, … | `functions/` |
@@ -32,7 +32,7 @@
 //! [axes]: crate::motion::ElementMotion::axes
 
 mod applied_forces;
-pub mod augmented;
+pub mod augmented_body;
 mod bias_forces;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
@@ -70,7 +70,7 @@ use crate::law;
 use crate::method::Method;
 use crate::model::{Model, System};
 use crate::motion::{Layout, Motion, State};
-use augmented::{AugmentedTree, Omitted};
+use augmented_body::{AugmentedTree, Omitted};
 use functions::{Known, Request};
 use matrices::{Matrices, with_axes};
 use outputs::ModelInMotion;
@@ -95,7 +95,7 @@ impl Default for Options {
     }
 }
 
-/// Number of degrees of freedom up to which the factorised mass matrix is tried. Beyond, the articulated-body algorithm
+/// Number of freedoms up to which the factorised mass matrix is tried. Beyond, the articulated-body algorithm
 /// always wins.
 const LARGEST_FACTORIZED: usize = 12;
 

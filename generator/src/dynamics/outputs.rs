@@ -14,7 +14,7 @@
 //! this carries. A ball joint turns freely, so it transmits only the moment of its laws. Any other joint transmits Σ (r
 //! × (m a − m g − F) + I α + ω × I ω − M), with r from the element's origin.
 
-use super::augmented::{own_inertia, rotated};
+use super::augmented_body::{own_inertia, rotated};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::force::AppliedForces;
@@ -377,7 +377,7 @@ impl<'g> ModelInMotion<'g, '_> {
             .collect()
     }
 
-    /// α = Σ e_j v̇_j + ε, over the degrees of freedom of the element and of the elements with which it turns
+    /// α = Σ e_j v̇_j + ε, over the freedoms of the element and of the elements with which it turns
     fn angular_acceleration(&self, id: ElementId) -> Vec3<'g> {
         self.plus_turn(id, self.motion.element(id).bias)
     }

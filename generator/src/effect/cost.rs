@@ -5,7 +5,7 @@ use crate::dynamics::{self, derive_without};
 use crate::equations::Equations;
 use crate::expression::NodeId;
 use crate::expression::count::Count;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::program;
 use crate::program::{Costs, Lists};
 use std::collections::HashSet;

@@ -3,24 +3,24 @@
 //! S v̇ = r_s + r_k = Σ effects
 //!
 //! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model. From the same
-//! expressions as the equations it finds which effects vanish by the structure of the model. [`of_annotated_model`] adds
-//! where the text calls for each effect, and what the text mentions without effect. [`without`](fn@without) leaves one effect out;
-//! [`general`](fn@general) leaves out none.
+//! expressions as the equations it finds which effects vanish by the structure of the model. [`of_annotated_model`]
+//! adds where the text calls for each effect, and what the text mentions without effect. [`without`](fn@without) leaves
+//! one effect out; [`general`](fn@general) leaves out none.
 
 mod annotated_model;
 mod cost;
-mod general;
+mod general_model;
 mod name;
 mod planar;
+mod removal;
 mod structure;
 mod summary;
-mod without;
 
 pub use annotated_model::of_annotated_model;
 pub use cost::{Cost, cost, counted};
-pub use general::general;
+pub use general_model::general;
+pub use removal::{Variant, without};
 pub use summary::summary;
-pub use without::{Variant, without};
 
 use crate::law::types::Field;
 use crate::model::annotated_model::SourceLine;
@@ -51,7 +51,7 @@ pub enum Effect {
     GyroscopicMoment(ElementId),
     /// The inertia of rotors on the joint of an element.
     Armature(ElementId),
-    /// Degrees of freedom of the joint of an element that follow others.
+    /// Freedoms of the joint of an element that follow others.
     Coupling(ElementId),
     /// A whole force with its geometry.
     Force {

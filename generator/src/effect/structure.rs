@@ -4,10 +4,10 @@
 //! w = 0, ω × Jω = 0, a field that acts on no single element: the effect is out if its expression is the number 0 in the
 //! graph.
 
-use crate::dynamics::augmented::{AugmentedTree, constants};
+use crate::dynamics::augmented_body::{AugmentedTree, constants};
 use crate::dynamics::{Options, derive_with};
 use crate::equations::Route;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::law::{self, ForceKind};

@@ -6,7 +6,7 @@
 //! are counted separately, because each costs many operations.
 
 use super::graph::Graph;
-use super::live::Live;
+use super::liveness::Live;
 use super::node::{Function, Node, NodeId};
 use rustc_hash::FxHashSet;
 use std::collections::BTreeMap;

@@ -5,7 +5,7 @@
 //! provides the functions that calls need. Programs that run a model use the engine.
 
 use super::graph::{Graph, flatten};
-use super::live::Live;
+use super::liveness::Live;
 use super::node::{Function, Node, NodeId, Symbol};
 use std::ops::{Add, Div, Mul, Neg, Range, Sub};
 

@@ -7,7 +7,7 @@ pub mod count;
 pub mod differentiate;
 pub mod evaluate;
 pub mod graph;
-pub mod live;
+pub mod liveness;
 pub mod node;
 pub mod passes;
 pub mod print;

@@ -7,7 +7,7 @@ use super::inputs::{Argument, Inputs};
 use super::results::{Length, Results};
 use super::{Method, Start};
 use crate::equations::{Equations, Function, LawState, Named, Route, Section};
-use crate::expression::live::{Dependence, Live};
+use crate::expression::liveness::{Dependence, Live};
 use crate::expression::{Node, NodeId};
 use crate::model::Model;
 use crate::names::{Names, snake};

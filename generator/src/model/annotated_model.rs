@@ -6,7 +6,7 @@ use super::mechanism::Model;
 use super::resolve::Resolved;
 use super::surface::Shown;
 use crate::description::load::Loaded;
-use crate::description::long::long_form;
+use crate::description::long_form::long_form;
 use crate::description::place::At;
 use crate::description::tree::NodeKind;
 use std::collections::BTreeMap;

@@ -2,9 +2,9 @@
 //!
 //! `description` holds what the user wrote, this module what it means. A [`Model`] can only be had from
 //! [`read`](crate::read()) and [`read_str`](crate::read_str), which report every problem they find. Every [`Model`] has
-//! these properties: each system is one tree with parents before children; names are unique; masses are positive and
-//! inertias realisable at the default parameters; all numbers are finite; curves have increasing abscissae; every index
-//! is in range; and the mass matrix is not structurally singular.
+//! these properties: each system is one tree with carriers before what they carry; names are unique; masses are
+//! positive and inertias realisable at the default parameters; all numbers are finite; curves have increasing
+//! abscissae; every index is in range; and the mass matrix is not structurally singular.
 
 mod body;
 mod coefficient;
@@ -37,7 +37,7 @@ pub mod rule;
 mod surface;
 mod switch;
 mod system;
-mod thin;
+mod thinning;
 pub mod units;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]

@@ -11,7 +11,7 @@ use super::layout::{Layout, State};
 use super::numbers::time;
 use super::numbers::{bryant, vector};
 use super::vehicle::{self, VehicleMotion};
-use super::{ball, free, prescribed, twist};
+use super::{ball, free, prescribed_joint, twist};
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};
 use crate::model::{Attachment, Body, Element, ElementId, Model, Number, Reference, System};
@@ -71,7 +71,7 @@ impl<'g> Motion<'g> {
                     free::vector(graph, layout.directions, &state.q[at]),
                     free::vector(graph, layout.directions, &state.v[rate]),
                 ),
-                _ => prescribed::motion(graph, system, &vehicles, time),
+                _ => prescribed_joint::motion(graph, system, &vehicles, time),
             };
             let turned = match system.reference {
                 Reference::Riding { vehicle, .. } => &vehicles[vehicle].body,
@@ -247,7 +247,7 @@ pub fn reference_acceleration<'g>(
     system: &System,
     motion: &Motion<'g>,
 ) -> Vec3<'g> {
-    prescribed::acceleration(graph, system, &motion.vehicles)
+    prescribed_joint::acceleration(graph, system, &motion.vehicles)
 }
 
 /// "head"; if there are several systems, with the name of the system before it.

@@ -7,8 +7,8 @@
 //! | `layout` | the coordinates and velocities, their order, and q̇ |
 //! | `variables` | the coordinates and velocities of one joint |
 //! | `element` | the motion of one body |
-//! | `ball`, `chart`, `twist` | an element on a ball joint, with Bryant angles in two charts; on degrees of freedom |
-//! | `free`, `prescribed`, `vehicle`, `translation` | reference joints, vehicles and their prescribed motion |
+//! | `ball`, `chart`, `twist` | an element on a ball joint, with Bryant angles in two charts; on freedoms |
+//! | `free`, `prescribed_joint`, `vehicle`, `translation` | reference joints, vehicles and their prescribed motion |
 //! | `kinematics` | the motion of all bodies, from the root of each tree to its leaves |
 //!
 //! Nothing here knows of masses and forces.
@@ -20,7 +20,7 @@ pub(crate) mod free;
 pub mod kinematics;
 pub mod layout;
 pub(crate) mod numbers;
-pub(crate) mod prescribed;
+pub(crate) mod prescribed_joint;
 pub(crate) mod translation;
 pub(crate) mod twist;
 pub(crate) mod variables;

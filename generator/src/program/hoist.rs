@@ -4,7 +4,7 @@
 //! Such a value is found in the graph of a method and copied with its operands into the graph of the equations, where
 //! it becomes one more value stored in the mechanism.
 
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::passes::{Rewritten, replace};
 use crate::expression::{Graph, Node, NodeId, Symbol};
 use crate::method::inputs::{Input, Inputs};

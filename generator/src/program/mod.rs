@@ -46,7 +46,7 @@ pub(crate) mod split;
 
 use crate::equations::Equations;
 use crate::expression::count::{Count, Table};
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::model::Model;
 use plan::Plan;
 use std::borrow::Cow;

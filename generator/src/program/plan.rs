@@ -5,7 +5,7 @@ use super::prepare::{Factored, factored, finished};
 use super::{Costs, Options, hoist};
 use crate::equations::Equations;
 use crate::expression::count::Table;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::passes::{Rewritten, fuse, join};
 use crate::expression::{Graph, NodeId};
 use crate::method::Start;

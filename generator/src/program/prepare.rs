@@ -12,7 +12,7 @@
 use super::hoist;
 use crate::equations::Equations;
 use crate::expression::count::Count;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::passes::{Rewritten, factor, fuse, needed, replace, restore};
 use crate::expression::{Function, Graph, Node, NodeId, Symbol};
 use crate::method::Start;

@@ -1,8 +1,8 @@
 //! Compares a file with what URDF knows: nothing in it vanishes.
 
-use super::known::{Element, Fate};
 use super::reader::Reader;
 use super::robot::{LeftOut, TextPlace, Why};
+use super::vocabulary::{Element, Fate};
 use crate::diagnostic::quoted;
 use roxmltree::Node;
 use std::collections::BTreeMap;

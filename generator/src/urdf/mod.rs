@@ -5,7 +5,8 @@
 //! 9.81 m/s² along −z is added, and all joints start at 0.
 //!
 //! `xml.rs` makes XML of the text, `reader.rs`, `joint.rs` and `rotor.rs` read it into the links and joints of `robot.rs`, and `inspect.rs` lists what they do not read, by the table in
-//! `known.rs`. `tree.rs` turns links and joints into systems, `repair.rs` changes their inertia on demand, and `write.rs` writes the systems.
+//! `vocabulary.rs`. `tree.rs` turns links and joints into systems, `repair.rs` changes their inertia on demand, and
+//! `write.rs` writes the systems.
 
 mod coupling;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
@@ -14,8 +15,8 @@ pub mod inertia;
 mod inspect;
 mod joint;
 mod kind;
-mod known;
-mod massless;
+mod massless_bodies;
+mod vocabulary;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod reader;

@@ -1,8 +1,8 @@
 //! Reads the elements of a URDF file: links with their inertia and shapes, origins, numbers.
 
 use super::inertia;
-use super::known::ROBOT;
 use super::robot::{Frame, Inertial, LeftOut, Link, Mesh, Mimic, Robot, TextPlace, Why};
+use super::vocabulary::ROBOT;
 use super::xml::{XACRO, Xml};
 use crate::description::mesh::Solid;
 use crate::diagnostic::{Diagnostic, Diagnostics, quoted};

@@ -7,7 +7,7 @@
 
 use super::coupling;
 use super::inertia::{Part, together, wrong_tensor, wrong_with};
-use super::massless::{self, Massless, shape_only};
+use super::massless_bodies::{self, Massless, shape_only};
 use super::robot::{Frame, Joint, JointType, Link, Robot, TextPlace};
 use super::root::root;
 use crate::diagnostic::quoted;
@@ -55,12 +55,12 @@ pub enum Carried {
     Joint(Vec<Freedom>),
 }
 
-/// A degree of freedom of a joint.
+/// A freedom of a joint.
 pub struct Freedom {
     pub joint: usize,
     pub slides: bool,
     pub axis: Vector,
-    /// Appended to the name of the joint, if that has several degrees of freedom.
+    /// Appended to the name of the joint, if that has several freedoms.
     pub suffix: &'static str,
 }
 
@@ -190,7 +190,7 @@ pub fn forest(robot: &Robot, base: Base, uncouple: bool) -> Result<Forest, Vec<P
     }
     builder
         .problems
-        .extend(massless::problem(robot, &builder.massless));
+        .extend(massless_bodies::problem(robot, &builder.massless));
     if !uncouple && builder.problems.is_empty() {
         let part = builder.part(root).filter(|part| wrong_with(part).is_none());
         coupling::join(robot, &mut builder.forest, root, part);

@@ -1,7 +1,7 @@
 //! Derivatives of the dynamics, in the frames of links and by differentiation of S and r_s.
 
 use crate::link::{Numbers, TreeKind, read, tree};
-use bryant_generator::dynamics::augmented::AugmentedTree;
+use bryant_generator::dynamics::augmented_body::AugmentedTree;
 use bryant_generator::dynamics::charts;
 use bryant_generator::dynamics::derivatives::graph::InGraph;
 use bryant_generator::dynamics::derivatives::{

@@ -1,14 +1,14 @@
 //! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them the generator would choose.
 
 use crate::share::share;
-use bryant_generator::dynamics::augmented::AugmentedTree;
+use bryant_generator::dynamics::augmented_body::AugmentedTree;
 use bryant_generator::dynamics::charts;
 use bryant_generator::dynamics::link::frames::{
     Choice, Framed, ReferenceTurn, can_align, natural_axes,
 };
 use bryant_generator::dynamics::link::search::{self, Aim};
 use bryant_generator::dynamics::link::tree::{Link, Tree};
-use bryant_generator::dynamics::link::{self, elimination, shared};
+use bryant_generator::dynamics::link::{self, elimination, shared_velocities};
 use bryant_generator::dynamics::spatial::{self, Spatial};
 use bryant_generator::expression::evaluate::{Inputs, evaluate};
 use bryant_generator::expression::{Expr, Function, Graph, NodeId};
@@ -99,7 +99,7 @@ pub enum TreeKind {
     Any,
     /// Hinges along axes, except for a small angle.
     Almost,
-    /// All joints, with rotors and with degrees of freedom that follow others.
+    /// All joints, with rotors and with freedoms that follow others.
     Coupled,
     /// Of the joints of the plane, the same, angles absolute and relative.
     Plane,
@@ -405,7 +405,7 @@ fn said<'g>(
             Way::Drawn => drawn.clone(),
             Way::Found => search::choice(tree, aim),
         };
-        if shared::elimination_links(&tree).is_some() {
+        if shared_velocities::elimination_links(&tree).is_some() {
             let choice = choice(&tree, Aim::Elimination);
             let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
             let name = |_: &Link<'_>| String::new();

@@ -5,7 +5,7 @@ mod derivatives;
 mod effects;
 mod emission;
 mod imports;
-mod joined;
+mod joined_lists;
 mod joints;
 mod language;
 mod link;
@@ -16,7 +16,7 @@ mod placement;
 mod reference;
 #[path = "../../../tests/suite/share.rs"]
 mod share;
-mod short;
+mod short_forms;
 mod texts;
 mod units;
 mod urdf;

@@ -2,11 +2,11 @@
 //!
 //! The refused texts follow the tests of the ROS parser (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of our own.
 
-mod coupled;
+mod coupling;
 mod digits;
 mod kinds;
 mod parts;
-mod repaired;
+mod repair;
 use bryant_generator::Diagnostics;
 use bryant_generator::dynamics::derive;
 use bryant_generator::expression::evaluate::{Inputs, evaluate};

@@ -1,6 +1,6 @@
 //! Arithmetic in quantities: random sequences of its tokens, and expressions with known values.
 
-use super::caught::Tried;
+use super::panics::Tried;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
 use crate::random::Random;

@@ -1,7 +1,7 @@
 //! Curves of length 0, backward curves, curves with one point, and curves with points near the limits of floating-point
 //! numbers.
 
-use super::caught::Tried;
+use super::panics::Tried;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};
 use crate::case_model::CaseModel;

@@ -1,7 +1,7 @@
 //! Compares the equations of random models with other derivations: Lagrange's equations, virtual power, Cholesky's
 //! factors, and the other coordinates.
 
-use super::caught::Tried;
+use super::panics::Tried;
 use super::sample;
 use super::tree;
 use crate::bench::{Bench, Engine, Trouble};

@@ -3,10 +3,10 @@
 //! Random inputs have fixed seeds, so that failures are reproducible. A check reports the input that caused a fault.
 
 mod arithmetic;
-mod caught;
 mod curve;
 mod equations;
 mod number;
+mod panics;
 mod run;
 mod sample;
 mod start;

@@ -1,6 +1,6 @@
 //! Puts meaningless numbers in place of each number of a model.
 
-use super::caught::Tried;
+use super::panics::Tried;
 use super::sample;
 use super::start::{Found, Start};
 use crate::bench::{Bench, Engine, Trouble};

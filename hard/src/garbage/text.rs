@@ -1,6 +1,6 @@
 //! Text that is almost a model, or far from one.
 
-use super::caught::Tried;
+use super::panics::Tried;
 use super::sample;
 use crate::bench::{Bench, Trouble};
 use crate::case::{Case, Group};

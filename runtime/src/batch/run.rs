@@ -36,7 +36,7 @@ use crate::patience::Patience;
 use crate::real::lanes::MOST_LANES;
 use crate::real::{Mask, Several, Task};
 use crate::simulate::finest;
-use crate::simulate::standing::Standing;
+use crate::simulate::stuck_events::Standing;
 use crate::{Family, Formula, Info, Real, Schedule, Section};
 
 /// Smallest step \[s\].

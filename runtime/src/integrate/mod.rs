@@ -228,7 +228,8 @@ pub(crate) trait Stepper<T: Real> {
         0.0
     }
     /// Notes an accepted step of this length, which follows this many rejected tries; `h_lambda_fourth` is (h|λ|)⁴ of
-    /// an explicit step. Returns `Some` if the next step uses another formula. The change takes effect with [`Stepper::begin`].
+    /// an explicit step. Returns `Some` if the next step uses another formula. The change takes effect with
+    /// [`Stepper::begin`].
     fn turn(
         &mut self,
         _length: f64,

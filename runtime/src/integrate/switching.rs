@@ -104,8 +104,8 @@ impl SwitchingCounts {
     }
 
     /// Counts an accepted explicit step with (h|λ|)⁴ = `h_lambda_fourth` after this many `rejected` tries. True if the
-    /// implicit method is to be tried. A step after a rejected try counts as at the limit, because the first try was above it:
-    /// at the corner of a friction law |λ| changes from step to step.
+    /// implicit method is to be tried. A step after a rejected try counts as at the limit, because the first try was
+    /// above it: at the corner of a friction law |λ| changes from step to step.
     fn is_stiff(&mut self, [h_lambda_fourth, limit]: [f64; 2], rejected: u64) -> bool {
         let is_at = |share: f64| {
             let squared = (share * limit) * (share * limit);

@@ -20,14 +20,14 @@
 
 pub(crate) mod balance;
 mod diagnostic;
-mod driven;
+mod driven_model;
 mod event;
 pub(crate) mod excursion;
 pub(crate) mod onset;
 mod run;
 mod schedule;
 mod settings;
-pub(crate) mod standing;
+pub(crate) mod stuck_events;
 mod time_loop;
 pub(crate) mod watch;
 
@@ -48,7 +48,7 @@ use crate::failure::Failure;
 use crate::{Differentiable, Direct, Model};
 use crate::{Dynamics, Info, Real};
 use core::ops::ControlFlow;
-pub use driven::Driven;
+pub use driven_model::Driven;
 #[cfg(feature = "std")]
 pub(crate) use event::{Bracket, StepValues, WIDTH, Zero, change, opposite};
 pub use run::Run;

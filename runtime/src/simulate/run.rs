@@ -1,6 +1,6 @@
 //! A run that its caller advances in portions.
 
-use super::driven::Driven;
+use super::driven_model::Driven;
 use super::time_loop::{End, TimeLoop};
 use super::watch::Watch;
 use super::{Observer, Receiver, Report, Sample, Settings, workspace_length};

@@ -22,10 +22,10 @@ mod onset;
 mod sample;
 mod search;
 
-use super::driven::Driven;
+use super::driven_model::Driven;
 use super::event::{PLACES, WIDTH, inside};
 use super::schedule::{Grid, Schedule, to_meet};
-use super::standing::Standing;
+use super::stuck_events::Standing;
 use super::watch::Watch;
 use super::{Cause, Observer, Pace, Receiver, Report, Settings};
 use crate::failure::Reason;

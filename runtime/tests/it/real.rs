@@ -2,7 +2,7 @@
 
 mod array;
 mod dual;
-mod fast;
+mod fast_scalar;
 mod lanes;
 mod layout;
 

@@ -15,8 +15,8 @@ mod settings;
 use crate::facts::ModelFacts;
 use crate::response::Response;
 use crate::study::{RunSettings, Study};
+use bryant_generator::description::file_content;
 use bryant_generator::description::tree::{Node, Source};
-use bryant_generator::description::what;
 use bryant_generator::{Diagnostic, Diagnostics};
 pub use keys::Keys;
 use reader::{Reader, optional};
@@ -41,12 +41,12 @@ impl StudyFile {
         if text.trim().is_empty() {
             return Err(Diagnostic::of_file(name, "the file is empty", BEGIN).into());
         }
-        if let Some((what, _)) = what::of_text(text) {
+        if let Some((what, _)) = file_content::of_text(text) {
             let message = format!("this is {what}, not a study");
             return Err(Diagnostic::of_file(name, message, BEGIN).into());
         }
         let source = Source::parse(name, text).map_err(|problem| *problem)?;
-        if let Some((what, help)) = what::instead_of_study(&source.root, name) {
+        if let Some((what, help)) = file_content::instead_of_study(&source.root, name) {
             let message = format!("this is {what}, not a study");
             return Err(Diagnostic::of_file(name, message, help).into());
         }

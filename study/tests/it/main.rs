@@ -1,8 +1,8 @@
 //! Studies as their users run them, in one program, so that it is linked once.
 
 mod common;
-mod killed;
+mod interruptions;
 mod reference;
-mod running;
+mod study_runs;
 mod summary;
 mod units;

@@ -8,14 +8,14 @@
 //!
 //! At the end stands what was not run, with the reason that its page gives.
 
-#[path = "../called.rs"]
+#[path = "../command_call.rs"]
 #[allow(dead_code)]
-mod called;
+mod command_call;
 mod compare;
-mod drawn;
 mod names;
 mod output;
 mod page;
+mod picture;
 mod run;
 #[path = "../share.rs"]
 mod share;

@@ -1,7 +1,7 @@
 //! What the pages name exists: files, headings, commands, options, models, targets of cargo.
 
 use super::run::call;
-use super::{compare, drawn, output, pages, root, table};
+use super::{compare, output, pages, picture, root, table};
 use libtest_mimic::{Failed, Trial};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ fn rules() -> Found {
     let all = [
         compare::rules_hold,
         output::rules_hold,
-        drawn::rules_hold,
+        picture::rules_hold,
         table::rules_hold,
     ];
     all.iter().filter_map(|rule| rule().err()).collect()

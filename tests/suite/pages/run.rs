@@ -1,9 +1,9 @@
 //! Runs the commands of a page in an empty folder with the files that the page shows.
 
-use super::called::cache;
+use super::command_call::cache;
 use super::output::{self, Printed};
 use super::page::{Mark, Part, PartKind, parts};
-use super::{asked, drawn, root, table};
+use super::{asked, picture, root, table};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -336,7 +336,7 @@ impl Page<'_> {
     fn pictures(&mut self, part: &Part) {
         let at = part.lines.start;
         let page = self.path.parent().unwrap_or(Path::new(""));
-        for picture in drawn::pictures(&self.lines[part.lines.clone()]) {
+        for picture in picture::pictures(&self.lines[part.lines.clone()]) {
             let shown = root().join(page).join(&picture);
             let stem = Path::new(&picture)
                 .file_stem()
@@ -352,7 +352,7 @@ impl Page<'_> {
                 .map(Path::new)
                 .or(Path::new(&picture).file_name().map(Path::new));
             let drawn = self.folder.join(name.unwrap_or(Path::new("")));
-            if let Some(problem) = drawn::compare(&shown, &drawn, asked("PAGES_UPDATE")) {
+            if let Some(problem) = picture::compare(&shown, &drawn, asked("PAGES_UPDATE")) {
                 self.problem(at, &format!("the picture {picture}: {problem}"));
             }
         }

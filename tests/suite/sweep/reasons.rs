@@ -1,7 +1,7 @@
 //! Runs without a result, or with one that cannot be trusted, have the reason in every table, and it is that of `bryant run`.
 
 use super::folder::Table;
-use crate::called::{bryant, call};
+use crate::command_call::{bryant, call};
 use bryant_runtime::Width;
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use super::directory;
 use super::folder::{Table, assert_same};
-use crate::called::call;
+use crate::command_call::call;
 use crate::share::share;
 use bryant_runtime::Width;
 use std::path::Path;

@@ -19,10 +19,10 @@
 //! | events of the same time, whose times depend on parameters otherwise | `events_that_cannot_be_told_apart_say_so` |
 //! | a check that fails | `src/command/error_report.rs` |
 //! | outputs that differ from a check by more than promised or requested | `outputs_are_as_accurate_as_promised_or_said_not_to_be` |
-//! | a user function that ends the program, panics or does not return | `tests/suite/apart.rs` |
+//! | a user function that ends the program, panics or does not return | `tests/suite/loaded_library.rs` |
 
 use super::sound;
-use crate::called::call;
+use crate::command_call::call;
 use bryant::simulation::{Recording, run};
 use bryant_runtime::batch::rows::{Asked, Job as RowsJob};
 use bryant_runtime::batch::{self, Doubt, Fixed, Pace, Status};

@@ -194,7 +194,8 @@ fn a_bushing_that_may_come_to_its_singular_angle_is_named() {
         );
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("mount.yaml"), text).expect("a file");
-        let (stdout, stderr) = crate::called::call(folder.path(), &["check", "mount.yaml"], 0);
+        let (stdout, stderr) =
+            crate::command_call::call(folder.path(), &["check", "mount.yaml"], 0);
         (stdout + &stderr).contains("nothing ends the rotation about y")
     };
     assert!(warned("x: { stiffness: 1 }"));

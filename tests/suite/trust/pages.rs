@@ -3,7 +3,7 @@
 //! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J fulfils F = m a and M = J ω̇: its
 //! accelerations show the force and moment on it.
 
-mod told;
+mod statements;
 
 use super::read;
 use bryant::evaluation::{State, at, functions};

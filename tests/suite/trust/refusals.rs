@@ -739,7 +739,7 @@ fn run_and_gradient_refuse_with_the_same_words() {
             "p=-1",
         ],
     ] {
-        let (stdout, stderr) = crate::called::call(folder.path(), command, 2);
+        let (stdout, stderr) = crate::command_call::call(folder.path(), command, 2);
         assert!(stdout.is_empty() && stderr.contains(words), "{stderr}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::common::{InLanes, Near, Single, compare, engine};
 use bryant_engine::Engine;
-use bryant_engine::inside::for_batch;
+use bryant_engine::internals::for_batch;
 use bryant_generated::MODELS;
 use bryant_runtime::real::lanes::{OfAnyWidth, with_width, with_width_of_singles};
 use bryant_runtime::{Dual, Fast, Several, Width};

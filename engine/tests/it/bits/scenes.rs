@@ -4,7 +4,7 @@
 
 use super::common::Writes;
 use bryant_engine::Engine;
-use bryant_engine::inside::for_batch;
+use bryant_engine::internals::for_batch;
 use bryant_generator::Config;
 use bryant_runtime::batch::rows::{Asked, Job};
 use bryant_runtime::batch::{Pace, Settings};

@@ -2,7 +2,7 @@
 
 use super::evaluate::{called, curves};
 use super::random::Random;
-use bryant_engine::inside::Library;
+use bryant_engine::internals::Library;
 use bryant_generator::expression::{ApproachCall, Function};
 use bryant_generator::program::{Curve, Input, List, Operation, Value};
 use bryant_generator::target::c;

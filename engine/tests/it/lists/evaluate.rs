@@ -1,6 +1,6 @@
 //! Plain evaluation of a list, to compare with.
 
-use bryant_engine::inside::Library;
+use bryant_engine::internals::Library;
 use bryant_generator::expression::Function;
 use bryant_generator::model::Extrapolate;
 use bryant_generator::program::{Curve, Input, List, Operation};

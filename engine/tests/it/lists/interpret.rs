@@ -2,7 +2,7 @@
 
 use super::evaluate::{Given, results};
 use super::random::{INPUTS, Mix, Random, list};
-use bryant_engine::inside::{alone, count_runs};
+use bryant_engine::internals::{alone, count_runs};
 use bryant_generator::Config;
 use bryant_generator::expression::Function;
 use bryant_generator::program::{List, Method, Operation, Value};

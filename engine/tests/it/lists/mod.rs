@@ -4,10 +4,10 @@
 #[cfg(target_arch = "x86_64")]
 mod c;
 #[cfg(target_arch = "x86_64")]
-mod emulated;
+mod emulated_code;
 #[cfg(target_arch = "x86_64")]
 mod emulator;
 mod evaluate;
 mod interpret;
-mod native;
+mod native_code;
 mod random;

@@ -12,7 +12,7 @@
 //! product of a symmetric and a skew matrix.
 
 use super::{ArticulatedBody, BodyWithChildren, Child};
-use crate::dynamics::augmented::{AugmentedBody, with_points};
+use crate::dynamics::augmented_body::{AugmentedBody, with_points};
 use crate::dynamics::factorization::Ldl;
 use crate::expression::vector::{Sym3, Vec3};
 use crate::expression::{Expr, Graph};
@@ -22,7 +22,7 @@ use crate::model::Dimension;
 pub(super) struct Absolute<'g> {
     /// J' = L D Lᵀ
     factors: Ldl<'g>,
-    /// Z = D⁻¹ L⁻¹ Hᵀ, one row for each rotational degree of freedom.
+    /// Z = D⁻¹ L⁻¹ Hᵀ, one row for each rotational freedom.
     z: Vec<Vec3<'g>>,
     /// D⁻¹ L⁻¹ t₀
     z_bias: Vec<Expr<'g>>,
@@ -154,7 +154,7 @@ impl<'g> Absolute<'g> {
     }
 }
 
-/// The axes of the rotational degrees of freedom: the absolute axes that the dimension has, with their indices.
+/// The axes of the rotational freedoms: the absolute axes that the dimension has, with their indices.
 fn rotations<'g>(graph: &'g Graph, dimension: Dimension) -> Vec<(usize, Vec3<'g>)> {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));
     let axis = |i: usize| {

@@ -30,7 +30,7 @@ mod link;
 #[doc(hidden)]
 pub mod tip;
 
-use super::augmented::AugmentedTree;
+use super::augmented_body::AugmentedTree;
 use super::factorization::Ldl;
 use super::link as link_frames;
 use super::spatial::{self, Spatial};

@@ -10,7 +10,7 @@
 
 use super::frame::{Frame, Own, along, clean, cleaned, values};
 use super::{ArticulatedBody, BodyWithChildren};
-use crate::dynamics::augmented::{sum_of_squares, terms_of_rank_two};
+use crate::dynamics::augmented_body::{sum_of_squares, terms_of_rank_two};
 use crate::expression::graph::sum;
 use crate::expression::vector::{Mat3, Vec3};
 use crate::expression::{Expr, Graph};

@@ -8,7 +8,7 @@
 //! | `forces` | inverse dynamics, S and the forces |
 //! | `regressor` | how inverse dynamics depends on masses and inertias |
 //! | `frame` | pose, velocity and Jacobian of a frame |
-//! | `whole` | centre of mass, centroidal momentum, energies |
+//! | `totals` | centre of mass, centroidal momentum, energies |
 //! | `contacts` | where surfaces touch |
 //! | `derivatives` | derivatives of inverse dynamics and of accelerations, linearisation |
 //!
@@ -25,7 +25,7 @@ mod forces;
 mod frame;
 mod regressor;
 mod request;
-mod whole;
+mod totals;
 
 pub use request::{Frame, Request, request, requests};
 
@@ -209,7 +209,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: axes,
         columns: one,
-        derive: Always(whole::center_of_mass),
+        derive: Always(totals::center_of_mass),
     },
     Function {
         name: "centroidal_momentum",
@@ -217,7 +217,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: motion,
         columns: one,
-        derive: Always(whole::centroidal_momentum),
+        derive: Always(totals::centroidal_momentum),
     },
     Function {
         name: "centroidal_matrix",
@@ -225,7 +225,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: motion,
         columns: velocities,
-        derive: Always(whole::centroidal_matrix),
+        derive: Always(totals::centroidal_matrix),
     },
     Function {
         name: "contacts",
@@ -241,7 +241,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_MOTION,
         rows: one,
         columns: one,
-        derive: Always(whole::kinetic_energy),
+        derive: Always(totals::kinetic_energy),
     },
     Function {
         name: "potential_energy",
@@ -249,7 +249,7 @@ pub const FUNCTIONS: &[Function] = &[
         arguments: OF_PLACE,
         rows: one,
         columns: one,
-        derive: Always(whole::potential_energy),
+        derive: Always(totals::potential_energy),
     },
 ];
 

@@ -1,9 +1,9 @@
 //! One axis in the articulated-body algorithm. The column of an axis is (z s, z t), so U = (K z s + Bᵀ z t,  B z s + J
 //! z t) and D = s U_fz + t U_nz.
 
-use super::articulated::Articulated;
+use super::articulated_inertia::Articulated;
 use super::frames::FramedLink;
-use super::shared::Velocity;
+use super::shared_velocities::Velocity;
 use super::tree::{Link, LinkJoint};
 use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;

@@ -49,7 +49,7 @@ use super::search::{self, Aim};
 use super::tree::{LinkJoint, Tree};
 use super::turn::through;
 use super::wrench::Written;
-use crate::dynamics::augmented::rotated;
+use crate::dynamics::augmented_body::rotated;
 use crate::dynamics::spatial::{Spatial, Wrench};
 use crate::expression::Expr;
 use crate::expression::vector::{Mat3, Sym3, Vec3};

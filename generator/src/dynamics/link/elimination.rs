@@ -13,11 +13,11 @@
 //! For a hinge the row and the column of z vanish in J and B, for a slider those in K and B, so 15 of 21 entries are
 //! left. From the root to the leaves, Δa = Xᵀ (Δa_p + Δα_p × r), Δα = Xᵀ Δα_p, and q̈ = q̈ref + (u − U · (Δa, Δα)) / D.
 
-use super::articulated::{Articulated, invariant};
+use super::articulated_inertia::{Articulated, invariant};
 use super::axis::Axis;
 use super::frames::{Choice, Framed, FramedLink};
 use super::motion::{LinkMotion, Reference, motion, steps};
-use super::shared::{Shared, Velocity, elimination_links};
+use super::shared_velocities::{Shared, Velocity, elimination_links};
 use super::tree::{Carried, Link, Tree};
 use super::turn::back_through;
 use super::wrench::Written;

@@ -7,7 +7,7 @@
 //! Bodies are regrouped, so a body on a hinge has only h_x, h_y and five entries of Σ.
 
 use super::body::{Body, Numbers, cleaned, cleaned_numbers, in_axes, numbers};
-use super::keep::{Constant, kept};
+use super::regrouping::{Constant, kept};
 use super::tree::{LinkJoint, Tree};
 use super::turn::Turn;
 use crate::expression::vector::{Mat3, Vec3};
@@ -42,8 +42,8 @@ pub struct LinkChoice {
     pub by_inertia: bool,
     /// The order of the axes along which the bodies that the link carries are moved to its origin.
     pub order: [usize; 3],
-    /// The child that keeps a component of the first moment of this link in the reference motion (`keep`), and the
-    /// index of the component.
+    /// The child that keeps a component of the first moment of this link in the reference motion (`regrouping`), and
+    /// the index of the component.
     pub keep: Option<(usize, usize)>,
     /// True if the pass inwards multiplies U by u/D; otherwise it multiplies G = U/D by u.
     pub scales_bias: bool,
@@ -166,7 +166,7 @@ pub struct FramedLink<'g> {
     /// Its body after regrouping.
     pub body: Body<'g>,
     /// The body for the reference motion: `body`, or `body` after a part of it is moved to or from another link
-    /// (`keep`).
+    /// (`regrouping`).
     pub in_reference: Body<'g>,
     /// True if the link is aligned: it keeps the axes of the inboard side of its joint.
     pub aligned: bool,
@@ -539,7 +539,7 @@ impl<'g> Framing<'_, 'g> {
     /// The rotation from the axes of a link to absolute axes; `turns` are the rotations to the parent's axes.
     fn absolute_axes(&self, k: usize, turns: &[Turn<'g>]) -> Mat3<'g> {
         let (graph, link) = (self.tree.graph, &self.tree.links[k]);
-        // in a joint of several degrees of freedom, the last link has the axes of the element
+        // in a joint of several freedoms, the last link has the axes of the element
         let mut carried = self.tree.links.iter().filter(|l| l.parent == Some(k));
         let inside = carried.any(|carried| carried.element == link.element);
         match (&link.joint, self.is_aligned(k) || inside) {

@@ -10,7 +10,7 @@
 use super::body::Body;
 use super::tree::{Carried, LinkJoint};
 use super::wrench::{Arrived, Written};
-use crate::dynamics::augmented::rotated;
+use crate::dynamics::augmented_body::rotated;
 use crate::dynamics::spatial::Wrench;
 use crate::expression::Expr;
 use crate::expression::vector::Vec3;

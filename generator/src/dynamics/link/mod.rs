@@ -10,30 +10,30 @@
 //! | `tree` | the links of a system |
 //! | `body` | mass, first and second moment |
 //! | `frames` | the frames of links, and regrouping |
-//! | `keep` | regrouping partly undone, for the reference motion |
+//! | `regrouping` | regrouping partly undone, for the reference motion |
 //! | `turn` | rotations between two frames |
 //! | `motion` | the reference motion |
 //! | `elimination` | v̇ by the articulated-body algorithm |
-//! | `articulated`, `axis` | the articulated inertia outboard of a joint, and an axis in it |
-//! | `shared` | velocities that several links share |
+//! | `articulated_inertia`, `axis` | the articulated inertia outboard of a joint, and an axis in it |
+//! | `shared_velocities` | velocities that several links share |
 //! | `wrench` | how bodies and wrenches are passed from a link to its parent |
 //! | `mass_matrix` | S by composite bodies |
 //! | `forces` | generalised forces |
 //! | `derivatives` | the derivatives of the generalised forces that a motion needs |
 //! | `search` | the choice of frames by operation count |
 
-mod articulated;
+mod articulated_inertia;
 mod axis;
 mod body;
 pub mod derivatives;
 pub mod elimination;
 mod forces;
 pub mod frames;
-mod keep;
 mod mass_matrix;
 mod motion;
+mod regrouping;
 pub mod search;
-pub mod shared;
+pub mod shared_velocities;
 pub mod tree;
 mod turn;
 mod wrench;
@@ -55,13 +55,14 @@ use search::Aim;
 use tree::{LinkJoint, Tree};
 use wrench::Written;
 
-/// v̇ of the system by row, without S; `None` if link frames cannot be used ([`Tree::of`], [`shared::elimination_links`]).
+/// v̇ of the system by row, without S; `None` if link frames cannot be used ([`Tree::of`],
+/// [`shared_velocities::elimination_links`]).
 pub fn accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
 ) -> Option<Vec<(usize, Expr<'g>)>> {
     let tree = Tree::of(spatial, Some(applied))?;
-    shared::elimination_links(&tree)?;
+    shared_velocities::elimination_links(&tree)?;
     let choice = search::choice(&tree, Aim::Elimination);
     let framed = Framed::of(&tree, &natural_axes(&tree), &choice);
     let name = |link: &tree::Link<'g>| spatial.label(link.element);

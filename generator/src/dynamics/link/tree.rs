@@ -1,11 +1,11 @@
-//! The links of a system: one for every degree of freedom of an element's joint, and none for a weld.
+//! The links of a system: one for every freedom of an element's joint, and none for a weld.
 //!
 //! All quantities are in the axes of the elements, about their origins. The axes along a joint are taken in its zero
 //! position, where the axes of its links are parallel.
 
-use super::articulated::Articulated;
+use super::articulated_inertia::Articulated;
 use super::body::Body;
-use crate::dynamics::augmented::own_inertia;
+use crate::dynamics::augmented_body::own_inertia;
 use crate::dynamics::spatial::{Spatial, Wrench};
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 use crate::expression::{Expr, Graph};

@@ -1,6 +1,6 @@
 //! Constant and variable rotations between the axes of two links, in few operations.
 
-use crate::dynamics::augmented::rotated;
+use crate::dynamics::augmented_body::rotated;
 use crate::expression::Expr;
 use crate::expression::vector::{Mat3, Sym3, Vec3};
 

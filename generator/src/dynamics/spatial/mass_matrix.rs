@@ -6,7 +6,7 @@
 //! carries on a ball joint count as a point mass.
 
 use super::{Column, Spatial, Wrench};
-use crate::dynamics::augmented::AugmentedBody;
+use crate::dynamics::augmented_body::AugmentedBody;
 use crate::expression::Expr;
 use crate::expression::vector::{Sym3, Vec3};
 

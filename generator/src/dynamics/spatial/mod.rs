@@ -15,7 +15,7 @@
 //! | `inverse_dynamics` | r_s and r_k by the recursive Newton–Euler algorithm |
 //! | `articulated_body` | v̇ by the articulated-body algorithm |
 //!
-//! A degree of freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to
+//! A freedom that follows another has q̇ = ratio · q̇ of the leader: its column, times the ratio, is added to
 //! the leader's. The articulated-body algorithm of this module cannot handle this, because the two are at different
 //! places of the tree; then v̇ follows from S. The algorithm in [the frames of the links](super::link) can handle it.
 //!
@@ -34,7 +34,7 @@ pub use mass_matrix::mass_matrix;
 use super::factorization;
 use crate::force::AppliedForces;
 
-use super::augmented::{AugmentedBody, AugmentedTree, with_points};
+use super::augmented_body::{AugmentedBody, AugmentedTree, with_points};
 use crate::expression::vector::Vec3;
 use crate::expression::{Expr, Graph};
 use crate::model::Joint;
@@ -115,7 +115,7 @@ impl<'g> Wrench<'g> {
     }
 }
 
-/// Sets the rows of v̇ of a system in which degrees of freedom follow others, computed from its S.
+/// Sets the rows of v̇ of a system in which freedoms follow others, computed from its S.
 pub fn coupled_accelerations<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,
@@ -171,7 +171,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
             && self.of_system().elements[element].joint == Joint::Ball
     }
 
-    /// The velocities of an element's joint. If a degree of freedom follows another, its column belongs to the leader's
+    /// The velocities of an element's joint. If a freedom follows another, its column belongs to the leader's
     /// velocity.
     pub fn columns(&self, element: usize) -> Vec<Column<'g>> {
         let motion = self.motion_of(element);
@@ -194,7 +194,7 @@ impl<'g, 'a> Spatial<'g, 'a> {
             .collect()
     }
 
-    /// True if a degree of freedom follows another. Then S has more entries than the tree alone tells.
+    /// True if a freedom follows another. Then S has more entries than the tree alone tells.
     pub fn is_coupled(&self) -> bool {
         self.of_system().is_coupled()
     }

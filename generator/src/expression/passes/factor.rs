@@ -16,7 +16,7 @@ use super::pairs::{Pair, extract_pairs};
 use super::rebuild::{Copier, Rewritten, construct, rebuild};
 use crate::expression::count::Count;
 use crate::expression::graph::{Expr, Graph};
-use crate::expression::live::{Dependence, Live};
+use crate::expression::liveness::{Dependence, Live};
 use crate::expression::node::{Node, NodeId};
 
 /// Number of products that take as long as one quotient.

@@ -8,7 +8,7 @@
 //! to the other, while its terms would be many.
 
 use crate::expression::graph::Graph;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::node::{Node, NodeId};
 
 /// Index of an operand: a node or, from the number of nodes on, a pair that was found later.

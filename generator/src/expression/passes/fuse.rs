@@ -10,7 +10,7 @@
 
 use super::rebuild::{Copier, Rewritten, mul_add};
 use crate::expression::graph::{Expr, Graph, opposite_name};
-use crate::expression::live::{Dependence, Live};
+use crate::expression::liveness::{Dependence, Live};
 use crate::expression::node::{Node, NodeId};
 
 /// The graph with fused multiply-adds. All roots must belong to one evaluation, because a product that another root

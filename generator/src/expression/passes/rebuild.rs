@@ -4,7 +4,7 @@
 //! are kept.
 
 use crate::expression::graph::{Expr, Graph};
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::node::{Node, NodeId};
 
 /// A graph that replaces another one.

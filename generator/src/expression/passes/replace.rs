@@ -3,7 +3,7 @@
 
 use super::rebuild::{Copier, Rewritten};
 use crate::expression::graph::Graph;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::node::{Node, NodeId, Symbol};
 use rustc_hash::FxHashMap;
 

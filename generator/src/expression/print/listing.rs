@@ -7,7 +7,7 @@
 
 use super::Names;
 use crate::expression::graph::Graph;
-use crate::expression::live::Live;
+use crate::expression::liveness::Live;
 use crate::expression::node::{Function, Node, NodeId, Symbol};
 use rustc_hash::FxHashSet;
 use std::mem::take;

@@ -2,7 +2,7 @@
 
 pub use super::keys::Contact;
 use crate::description::expand::{Expander, Node};
-use crate::description::short::ByName;
+use crate::description::short_forms::ByName;
 use crate::description::surface::{Ellipsoid as WrittenEllipsoid, Plane as WrittenPlane};
 use crate::diagnostic::quoted;
 use crate::model::declared::{Kind, Names, NoKey, Reader};

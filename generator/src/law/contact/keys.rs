@@ -9,7 +9,7 @@ use crate::description::measure::{
 };
 use crate::description::quantity::Number;
 use crate::description::shape::{Flat, Key};
-use crate::description::short::ByName;
+use crate::description::short_forms::ByName;
 use crate::description::surface::{Edge, Ellipsoid as WrittenEllipsoid, Plane};
 use crate::model::Ellipsoid;
 use crate::model::declared::{

@@ -3,7 +3,7 @@
 pub use super::keys::{Drive, JointTorque, Lock, Stop};
 use super::keys::{Flexion, Joint as Written, Order as WrittenOrder};
 use crate::description::place::At;
-use crate::description::short::LongAxis;
+use crate::description::short_forms::LongAxis;
 use crate::diagnostic::quoted;
 use crate::model::declared::{Declared, Written as Keys};
 use crate::model::law;

@@ -13,7 +13,7 @@ use crate::description::schema::Schema;
 use crate::description::shape::{
     Flat, Key, Misfit, Problems, Record, Shape, check_record, record, words,
 };
-use crate::description::short::{Each, LongAxis};
+use crate::description::short_forms::{Each, LongAxis};
 use crate::model;
 use crate::model::declared::{
     Coefficient, Declaration, Declared, Elastic, Fade, Given, Holding, OverTimeTerm, Reader,

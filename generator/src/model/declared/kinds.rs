@@ -7,7 +7,7 @@ use crate::description::force::Attachment as End;
 use crate::description::measure::{Angle, InPlace, LENGTH, Length, Measured, NotNegative, SPEED};
 use crate::description::place::At;
 use crate::description::quantity::{Number as WrittenNumber, OneOrThree, Quantity};
-use crate::description::short::ByName;
+use crate::description::short_forms::ByName;
 use crate::description::surface::Ellipsoid as WrittenEllipsoid;
 use crate::model::body::{Attachment, Body};
 use crate::model::dimension::Dimension;

@@ -7,7 +7,7 @@ use super::output::output;
 use crate::description::criteria::{Criteria as Written, FilterStandard};
 use crate::description::output::{Component as WrittenComponent, Output as WrittenOutput};
 use crate::description::place::At;
-use crate::description::short::Each;
+use crate::description::short_forms::Each;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::{Component, Criteria};
 

@@ -1,6 +1,7 @@
-//! Elements: one tree for each system, with parents before children, and realisable masses and moments of inertia.
+//! Elements: one tree for each system, with carriers before what they carry, and realisable masses and moments of
+//! inertia.
 
-use super::follows::couple;
+use super::coupling::couple;
 use super::joint::joint_of;
 use super::{NOWHERE, Resolver, name::Style};
 use crate::description::element::{Element as Written, NamedPoint as WrittenPoint};
@@ -14,7 +15,7 @@ use crate::rotation::{bryant_angles, principal};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
-/// The elements of a system: parents before children, otherwise in the order of the text.
+/// The elements of a system: carriers before what they carry, otherwise in the order of the text.
 pub(super) fn tree(
     resolver: &Resolver<'_>,
     system: &str,
@@ -70,7 +71,8 @@ pub(super) fn tree(
     elements
 }
 
-/// Index of the parent of each element, in the order of the text. Reports parents that do not exist, and second roots.
+/// Index of the carrier of each element, in the order of the text. Reports carriers that do not exist, and second
+/// roots.
 fn parents(
     resolver: &Resolver<'_>,
     system: &str,
@@ -149,8 +151,8 @@ fn parents(
     parents
 }
 
-/// An order in which every parent precedes its children. Among the elements that may come next, the first in the text
-/// is chosen.
+/// An order in which every carrier precedes what it carries. Among the elements that may come next, the first in the
+/// text is chosen.
 fn parents_first(
     resolver: &Resolver<'_>,
     written: &[Written],

@@ -11,10 +11,10 @@
 pub(crate) mod applied;
 pub(crate) mod channel;
 pub(crate) mod coordinate;
+mod coupling;
 mod criteria;
 pub(crate) mod curve;
 mod element;
-mod follows;
 mod formula;
 pub(crate) mod hysteresis;
 pub(crate) mod joint;
@@ -75,7 +75,7 @@ use std::path::{Path, PathBuf};
 pub struct Kinds {
     /// The kinds as written.
     pub language: &'static Language,
-    /// The keys of a joint that stand for degrees of freedom.
+    /// The keys of a joint that stand for freedoms.
     pub(crate) spellings: &'static [Spelling],
     /// The words for joints that need no keys.
     pub(crate) words: &'static [Word],

@@ -9,7 +9,7 @@ use crate::description::measure::Expected;
 use crate::description::output::Output as Looked;
 use crate::description::place::At;
 use crate::description::quantity::Quantity;
-use crate::description::short::Each;
+use crate::description::short_forms::Each;
 use crate::description::switch::{Switch as Written, Trigger as WrittenTrigger};
 use crate::description::unit::{Dimension, product};
 use crate::model::{Active, Switch, Trigger};

@@ -1,8 +1,8 @@
 //! Systems: their elements, the motion of their reference joints, and their state at the start.
 
 use super::channel::{Anatomy as BodyAxes, BodyPart};
+use super::coupling::start_followers;
 use super::element::tree;
-use super::follows::start_followers;
 use super::joint::freedoms_at_start;
 use super::translation::translation;
 use super::vehicle::{ridden_at_start, vehicle_named};

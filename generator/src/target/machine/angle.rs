@@ -2,7 +2,7 @@
 //!
 //! The steps follow the runtime (`runtime/src/real/lanes/elementary/angle.rs`, which explains them) operation by
 //! operation, so they give the same bits. Points so near to or far from the origin that reciprocals leave the range of
-//! numbers are rare; for them the code branches to the function of the runtime: see `rare`.
+//! numbers are rare; for them the code branches to the function of the runtime: see `rare_branches`.
 
 use super::numbers::Signed;
 use super::operation::{Binary, Bitwise};

@@ -3,7 +3,7 @@
 //!
 //! Only code for one lane uses these steps. They follow the runtime (`touch` in
 //! `runtime/src/force/approach/{plane,space}.rs`, which explain them) operation by operation, up to the test whether
-//! the line of centres separates the two. If it does not, a branch calls the runtime: see `rare`.
+//! the line of centres separates the two. If it does not, a branch calls the runtime: see `rare_branches`.
 
 use super::numbers::Signed;
 use super::steps::{Callee, Lowering};

@@ -7,7 +7,7 @@
 use super::Code;
 use super::base::Base;
 use super::operation::{CodePosition, Jump, Vector};
-use super::rare::Rare;
+use super::rare_branches::Rare;
 use super::registers::{NEVER, Registers, Set};
 use super::shape::{Length, Precision, Shape, Values};
 use super::slots::Slots;

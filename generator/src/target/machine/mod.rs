@@ -11,7 +11,7 @@
 //! | `approach` | two ellipsoids that are far from each other |
 //! | `laws` | force laws and curves as steps, in place of calls |
 //! | `emit` | the order of instructions, with values in registers or memory |
-//! | `rare` | the branch that rare numbers take |
+//! | `rare_branches` | the branch that rare numbers take |
 //! | `registers` | which value is in which register, and which one is evicted |
 //! | `slots` | places in the frame |
 //! | `base` | the memory of a function |
@@ -32,7 +32,7 @@ mod numbers;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub mod operation;
-mod rare;
+mod rare_branches;
 pub(crate) mod registers;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]

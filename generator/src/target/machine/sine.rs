@@ -2,7 +2,7 @@
 //!
 //! The steps follow the runtime (`runtime/src/real/lanes/elementary/circle.rs`, which explains them) operation by
 //! operation, so they give the same bits. Angles beyond 2¹⁶ are rare; for them the code branches to the function of the
-//! runtime: see `rare`.
+//! runtime: see `rare_branches`.
 
 use super::numbers::Signed;
 use super::operation::{Binary, Bitwise};

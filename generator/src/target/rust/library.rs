@@ -2,7 +2,7 @@
 
 use super::expression::{Callee, ident, number};
 use super::user::Users;
-use crate::expression::{Function, Graph, Node, NodeId, live::Live};
+use crate::expression::{Function, Graph, Node, NodeId, liveness::Live};
 use crate::law::ForceKind;
 use crate::model::{Extrapolate, Interpolate, Model};
 use crate::names::{Names, screaming};

@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `register` | the operations of a register; each width implements them |
-//! | `avx512`, `avx2`, `neon`, `alone` | eight doubles, four, two, one; sixteen singles, eight, four, one |
+//! | `avx512`, `avx2`, `neon`, `scalar_register` | eight doubles, four, two, one; sixteen singles, eight, four, one |
 //! | `elementary` | the elementary functions, over any register |
 //! | `several` | the operations on lanes that the time loop of a batch needs |
 //!
@@ -17,7 +17,6 @@
 //! A register of singles has twice the lanes of the same register of doubles. Its elementary functions are those of
 //! doubles, rounded: as fast as eight lanes, and exact to the last bit.
 
-mod alone;
 #[cfg(target_arch = "x86_64")]
 mod avx2;
 #[cfg(target_arch = "x86_64")]
@@ -26,9 +25,9 @@ pub(super) mod elementary;
 #[cfg(target_arch = "aarch64")]
 mod neon;
 mod register;
+mod scalar_register;
 mod several;
 
-pub(crate) use alone::{Alone, Apart, Emulated, Fused};
 #[cfg(target_arch = "x86_64")]
 pub(crate) use avx2::{Avx2, Avx2Singles};
 #[cfg(target_arch = "x86_64")]
@@ -37,6 +36,7 @@ pub(crate) use avx512::{Avx512, Avx512Singles};
 pub(crate) use neon::{Neon, NeonSingles};
 pub use register::MOST_LANES;
 pub(crate) use register::{Instructions, Register};
+pub(crate) use scalar_register::{Alone, Apart, Emulated, Fused};
 pub use several::Several;
 
 #[cfg(feature = "std")]

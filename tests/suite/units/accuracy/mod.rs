@@ -1,7 +1,7 @@
 mod check;
 mod conclusion;
 mod difference;
-mod fastest;
+mod fastest_motion;
 mod front;
 mod norm;
 mod plan;

@@ -110,7 +110,7 @@ pub fn child() -> Model {
             points: vec![[0.0, 0.0], [1.0, 1.0]],
             interpolate: Interpolate::Linear,
             extrapolate: Extrapolate::Linear,
-            told: true,
+            states_extrapolation: true,
             thinned: None,
         }],
         vehicles: Vec::new(),

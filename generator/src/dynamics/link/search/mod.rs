@@ -12,7 +12,7 @@ use super::elimination;
 use super::frames::{Choice, Framed, LinkChoice, Matrix, ReferenceTurn, can_align, natural_axes};
 use super::motion::Reference;
 use super::tree::{Link, LinkJoint, Tree};
-use crate::expression::live::{Dependence, Live};
+use crate::expression::liveness::{Dependence, Live};
 use crate::expression::{Expr, Graph, Node, NodeId, Symbol};
 use candidates::reach;
 use part::{Part, matrices, needed};

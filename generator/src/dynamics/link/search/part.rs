@@ -1,7 +1,7 @@
 //! A part of a tree for the trial of one link: the links near it, with unknowns in place of the others.
 
 use super::{Aim, FAR, NEAR, Search, unsigned};
-use crate::dynamics::link::articulated::Articulated;
+use crate::dynamics::link::articulated_inertia::Articulated;
 use crate::dynamics::link::body::Body;
 use crate::dynamics::link::frames::{Choice, Framed, Matrix, origin_of, turned_axes};
 use crate::dynamics::link::motion::{Reference, motion};

@@ -1,5 +1,5 @@
 mod expression;
+mod file_content;
 mod measure;
 mod slip;
 mod table;
-mod what;

@@ -1,2 +1,2 @@
-mod augmented;
+mod augmented_body;
 mod elimination;

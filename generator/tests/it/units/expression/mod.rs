@@ -2,7 +2,7 @@ mod count;
 mod differentiate;
 mod evaluate;
 mod graph;
-mod live;
+mod liveness;
 mod passes;
 mod print;
 mod properties;

@@ -2,6 +2,6 @@ mod curve;
 mod digest;
 mod resolve;
 mod rule;
-mod thin;
+mod thinning;
 mod units;
 mod unloading;

@@ -8,7 +8,7 @@
 //! with the coefficients of fdlibm 5.3 (`k_sin.c`, `k_cos.c`; relative error 2⁻⁵⁸). k mod 4 exchanges and negates them.
 
 use super::super::register::Doubles;
-use super::far::far;
+use super::remainder::far;
 
 /// Up to this angle \[rad\] r is accurate to all its digits: next to a multiple of π/2 it is at least 2⁻⁵⁵, and its
 /// error is 2⁻¹¹¹.

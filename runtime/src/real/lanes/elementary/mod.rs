@@ -3,7 +3,7 @@
 //! | file | functions | largest error |
 //! |---|---|---|
 //! | `circle` | [`sin_cos`] | 1 ulp |
-//! | `far` | the reduction of angles beyond 2¹⁶ | |
+//! | `remainder` | the reduction of angles beyond 2¹⁶ | |
 //! | `exponential` | [`exp`] | 1 ulp |
 //! | `logarithm` | [`ln`] | 1 ulp |
 //! | `power` | [`powf`] | 1 ulp |
@@ -20,12 +20,12 @@
 mod angle;
 mod circle;
 mod exponential;
-mod far;
 mod logarithm;
 mod power;
+mod remainder;
+mod singles;
 #[cfg(test)]
 mod tests;
-mod widened;
 
 use angle::atan2;
 use circle::sin_cos;

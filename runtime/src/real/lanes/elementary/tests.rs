@@ -5,16 +5,16 @@ mod circle;
 mod exponential;
 mod power;
 
-use crate::real::lanes::alone::{self, Alone};
 use crate::real::lanes::register::Doubles;
+use crate::real::lanes::scalar_register::{self, Alone};
 use crate::{DoubleDouble, Real};
 use std::sync::OnceLock;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 /// The arithmetic of registers with fused multiply-adds.
-type Fused = Alone<f64, alone::Fused>;
+type Fused = Alone<f64, scalar_register::Fused>;
 /// The arithmetic of registers without them.
-type Unfused = Alone<f64, alone::Apart>;
+type Unfused = Alone<f64, scalar_register::Apart>;
 
 /// The number of random points on which each bound is tried: other points in each run, and ten times as many with `BRYANT_TESTS=all`.
 fn points() -> usize {

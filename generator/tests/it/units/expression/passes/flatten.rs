@@ -1,4 +1,4 @@
-use bryant_generator::expression::live::Live;
+use bryant_generator::expression::liveness::Live;
 use bryant_generator::expression::passes::flatten::{Role, Signed, flatten, unsigned};
 use bryant_generator::expression::{Graph, NodeId, Symbol};
 

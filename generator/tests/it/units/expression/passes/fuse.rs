@@ -1,5 +1,5 @@
 use bryant_generator::expression::count::Count;
-use bryant_generator::expression::live::Live;
+use bryant_generator::expression::liveness::Live;
 use bryant_generator::expression::passes::fuse;
 use bryant_generator::expression::{Expr, Graph, Node, NodeId, Symbol};
 

@@ -1,4 +1,4 @@
-use bryant_generator::expression::live::Live;
+use bryant_generator::expression::liveness::Live;
 use bryant_generator::expression::passes::{join, rebuild};
 use bryant_generator::expression::{Function, Graph, Node, Symbol};
 
