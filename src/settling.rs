@@ -285,10 +285,10 @@ impl<'m> Motion<'m> {
     /// are used.
     fn follow(&mut self, small: f64) {
         let (count, first) = (self.state.len(), self.coordinates());
-        let degrees_of_freedom = self.velocities().len();
+        let freedoms = self.velocities().len();
         let (mut by_state, mut by_time) = (vec![0.0; count * count], vec![0.0; count]);
         let size = |rate: &[f64]| {
-            rate[first..first + degrees_of_freedom]
+            rate[first..first + freedoms]
                 .iter()
                 .map(|a| a * a)
                 .sum::<f64>()
@@ -304,7 +304,7 @@ impl<'m> Motion<'m> {
                 return;
             }
             self.evaluations += count as u64;
-            let pull = self.rate[first..first + degrees_of_freedom]
+            let pull = self.rate[first..first + freedoms]
                 .iter()
                 .fold(0.0, |most: f64, a| most.max(a.abs()));
             length = length.min(LONGEST / pull);
@@ -313,8 +313,8 @@ impl<'m> Motion<'m> {
                 let of_row = &by_state[(first + row) * count..][..first];
                 columns[k].iter().map(|(i, rate)| of_row[*i] * rate).sum()
             };
-            let pulled: Vec<Vec<f64>> = (0..degrees_of_freedom)
-                .map(|row| (0..degrees_of_freedom).map(|k| entry(row, k)).collect())
+            let pulled: Vec<Vec<f64>> = (0..freedoms)
+                .map(|row| (0..freedoms).map(|k| entry(row, k)).collect())
                 .collect();
             loop {
                 let mut matrix = pulled.clone();
@@ -322,10 +322,7 @@ impl<'m> Motion<'m> {
                     row.iter_mut().for_each(|entry| *entry = -*entry);
                     row[i] += 1.0 / length;
                 }
-                let step = solved(
-                    matrix,
-                    self.rate[first..first + degrees_of_freedom].to_vec(),
-                );
+                let step = solved(matrix, self.rate[first..first + freedoms].to_vec());
                 let longest = step
                     .iter()
                     .fold(0.0, |most: f64, step| most.max(step.abs()));
@@ -347,7 +344,7 @@ impl<'m> Motion<'m> {
         }
     }
 
-    /// For each degree of freedom, the coordinates that change with it, and their rates at a velocity of 1.
+    /// For each freedom, the coordinates that change with it, and their rates at a velocity of 1.
     fn directions(&self) -> Vec<Vec<(usize, f64)>> {
         let velocities = self.velocities();
         let column = |index: usize| {
@@ -362,7 +359,7 @@ impl<'m> Motion<'m> {
         velocities.clone().map(column).collect()
     }
 
-    /// The motion after a change of the coordinates by `step` in each degree of freedom.
+    /// The motion after a change of the coordinates by `step` in each freedom.
     fn moved(&self, columns: &[Vec<(usize, f64)>], step: &[f64]) -> Motion<'m> {
         let mut moved = Motion {
             state: self.state.clone(),

@@ -125,15 +125,15 @@ fn skeleton(model: &Model, force: &str) -> Result<String, Error> {
 }
 
 /// Number of velocities of a model.
-pub fn degrees_of_freedom(model: &Model) -> usize {
+pub fn freedoms(model: &Model) -> usize {
     model
         .systems
         .iter()
-        .map(|system| system_degrees_of_freedom(model, system))
+        .map(|system| system_freedoms(model, system))
         .sum()
 }
 
-fn system_degrees_of_freedom(model: &Model, system: &System) -> usize {
+fn system_freedoms(model: &Model, system: &System) -> usize {
     let reference = match (&system.reference, model.dimension) {
         (Reference::Free, Dimension::Plane) => 2,
         (Reference::Free, Dimension::Space) => 3,
@@ -220,7 +220,7 @@ fn as_text(model: &Model, costs: &Costs) -> String {
             "  system      {}: {}, {}, reference joint {}",
             system.name,
             counted(system.elements.len(), "element"),
-            counted(system_degrees_of_freedom(model, system), "freedom"),
+            counted(system_freedoms(model, system), "freedom"),
             reference(&system.reference)
         );
         for (index, element) in system.elements.iter().enumerate() {
@@ -289,10 +289,10 @@ fn defaults(model: &Model) -> Vec<f64> {
     model.parameters.iter().map(|p| p.default).collect()
 }
 
-/// The elements whose joints the degrees of freedom of an element follow, as text.
+/// The elements whose joints the freedoms of an element follow, as text.
 fn following(system: &System, element: usize) -> String {
-    let degrees_of_freedom = system.elements[element].joint.freedoms().iter();
-    let leaders = degrees_of_freedom.filter_map(|freedom| freedom.follows.as_ref());
+    let freedoms = system.elements[element].joint.freedoms().iter();
+    let leaders = freedoms.filter_map(|freedom| freedom.follows.as_ref());
     let named =
         leaders.map(|follows| format!(", follows {}", system.elements[follows.element].name));
     named.collect()
@@ -362,7 +362,7 @@ fn as_json(scene: &AnnotatedModel, costs: &Costs) -> Value {
             json!({
                 "name": system.name,
                 "reference": reference(&system.reference),
-                "freedoms": system_degrees_of_freedom(model, system),
+                "freedoms": system_freedoms(model, system),
                 "elements": elements,
             })
         })
@@ -399,7 +399,7 @@ fn as_json(scene: &AnnotatedModel, costs: &Costs) -> Value {
         "title": model.title,
         "digest": model.digest,
         "dimension": if model.dimension == Dimension::Plane { 2 } else { 3 },
-        "freedoms": degrees_of_freedom(model),
+        "freedoms": freedoms(model),
         "systems": systems,
         "forces": forces,
         "switches": switches,

@@ -87,7 +87,7 @@ struct Row<'a> {
     dimension: u8,
     systems: usize,
     elements: usize,
-    degrees_of_freedom: usize,
+    freedoms: usize,
     title: &'a str,
 }
 
@@ -101,7 +101,7 @@ impl<'a> Row<'a> {
             },
             systems: model.systems.len(),
             elements: model.systems.iter().map(|s| s.elements.len()).sum(),
-            degrees_of_freedom: super::check::degrees_of_freedom(model),
+            freedoms: super::check::freedoms(model),
             title: &model.title,
         }
     }
@@ -112,7 +112,7 @@ impl<'a> Row<'a> {
             "dimension": self.dimension,
             "systems": self.systems,
             "elements": self.elements,
-            "freedoms": self.degrees_of_freedom,
+            "freedoms": self.freedoms,
             "title": self.title,
         })
     }
@@ -135,7 +135,7 @@ fn table(rows: &[Row<'_>], width: Option<usize>) -> String {
         let line = format!(
             "{:names$}  {space}  {:>8}  {}",
             row.name,
-            row.degrees_of_freedom,
+            row.freedoms,
             title.next().unwrap_or_default()
         );
         text.push_str(line.trim_end());

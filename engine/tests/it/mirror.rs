@@ -65,8 +65,8 @@ outputs:
   - { name: nod, of: man/neck, what: angular_acceleration, component: [x, y, z] }
 ";
 
-/// Joints of every kind with coordinates of their own, which mirror images have, too: a joint of one side with all degrees of freedom of a
-/// kind, lists, short forms, followers, vectors, tensors.
+/// Joints of every kind with coordinates of their own, which mirror images have, too: a joint of one side with all
+/// freedoms of a kind, lists, short forms, followers, vectors, tensors.
 const MECHANISM: &str = "
 model: mechanism
 dimension: 3

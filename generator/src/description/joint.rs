@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// The words for an axis: one of the frame's own, or its opposite.
 pub const AXES: [&str; 6] = ["x", "y", "z", "-x", "-y", "-z"];
 
-/// The coordinate of a degree of freedom: an angle, or a length.
+/// The coordinate of a freedom: an angle, or a length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {
     /// \[rad\]
@@ -24,7 +24,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// The default name of a degree of freedom with this kind of coordinate.
+    /// The default name of a freedom with this kind of coordinate.
     pub fn name(self) -> &'static str {
         match self {
             Coordinate::Angle => "angle",
@@ -41,7 +41,7 @@ impl Coordinate {
     }
 }
 
-/// A key of a joint that stands for degrees of freedom.
+/// A key of a joint that stands for freedoms.
 #[derive(Clone, Copy, Debug)]
 pub struct JointKey {
     /// The key. Its value is one axis, or several.
@@ -51,7 +51,7 @@ pub struct JointKey {
     /// Further keys whose numbers determine whether the joint is left- or right-handed: in a mirror image they change
     /// sign.
     pub handed: &'static [&'static str],
-    /// The coordinates of the degrees of freedom for which the key stands, from the carrier outwards.
+    /// The coordinates of the freedoms for which the key stands, from the carrier outwards.
     pub coordinates: &'static [Coordinate],
 }
 
@@ -91,7 +91,7 @@ impl Freedom {
     }
 }
 
-/// The name of a joint of one or several degrees of freedom in messages.
+/// The name of a joint of one or several freedoms in messages.
 const TITLE: &str = "a joint";
 
 /// The keys of a joint with the title of its record; those of kinds are in the middle.

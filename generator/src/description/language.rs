@@ -8,7 +8,7 @@ use super::tree::Node;
 /// The kinds that a text may name.
 #[derive(Debug)]
 pub struct Language {
-    /// The keys of a joint that stand for degrees of freedom, in the order of the reference page.
+    /// The keys of a joint that stand for freedoms, in the order of the reference page.
     pub joint_keys: &'static [JointKey],
     /// The words for joints that need no keys.
     pub joint_words: &'static [JointWord],

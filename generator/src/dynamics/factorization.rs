@@ -7,7 +7,7 @@
 //! [`Ldl`] also factorises the small matrices of single joints in the articulated-body algorithm, such as the 3×3
 //! matrix of a ball joint. No inverse is formed.
 //!
-//! A pivot is the articulated inertia of its degree of freedom: the rest of S_ii when the degrees of freedom further
+//! A pivot is the articulated inertia of its freedom: the rest of S_ii when the freedoms further
 //! out are free to move.
 
 use crate::expression::{Expr, Graph};
@@ -204,7 +204,7 @@ pub fn pivots<'g>(
     pivots
 }
 
-/// The largest number of degrees of freedom for which the [`pivots`] are derived; beyond, they would take too many
+/// The largest number of freedoms for which the [`pivots`] are derived; beyond, they would take too many
 /// statements.
 pub const MOST_PIVOTS: usize = 60;
 

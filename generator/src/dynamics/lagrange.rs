@@ -157,7 +157,7 @@ fn energy_of<'g>(
     Ok(energy + sum(graph, turns))
 }
 
-/// Position and rotation that the degrees of freedom of a joint give an element, in the frame of its carrier, by
+/// Position and rotation that the freedoms of a joint give an element, in the frame of its carrier, by
 /// products of matrices: Rodrigues' formula for each.
 fn placed<'g>(graph: &'g Graph, freedoms: &[Freedom], q: &[Expr<'g>]) -> (Vec3<'g>, Mat3<'g>) {
     let (zero, one) = (graph.constant(0.0), graph.constant(1.0));

@@ -29,7 +29,7 @@ pub struct Wrenches<'g> {
     pub elements: Vec<Vec<Wrench<'g>>>,
     /// By system and element: the moments that laws apply in the element's joint, on the element.
     pub in_joints: Vec<Vec<Vec<Vec3<'g>>>>,
-    /// By system, element and degree of freedom of its joint: the torques and forces that laws apply on its coordinate.
+    /// By system, element and freedom of its joint: the torques and forces that laws apply on its coordinate.
     pub on_freedoms: Vec<Vec<Vec<Expr<'g>>>>,
     /// By vehicle: forces, and moments about its origin. A vehicle's motion is prescribed, so they do not change it,
     /// but its drive works against them.

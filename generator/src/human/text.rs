@@ -27,7 +27,7 @@ struct Spine {
     stops: [Stop; 2],
 }
 
-/// The law of a degree of freedom of a limb.
+/// The law of a freedom of a limb.
 #[derive(Deserialize)]
 struct Limb {
     joint: String,

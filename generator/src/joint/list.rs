@@ -1,4 +1,4 @@
-//! A joint of several degrees of freedom, one after the other from the carrier outwards, without mass between them: an
+//! A joint of several freedoms, one after the other from the carrier outwards, without mass between them: an
 //! ordered list, or a word that stands for one.
 //!
 //! | written | stands for |
@@ -9,7 +9,7 @@
 //! | `translation` | sliders along x, y and z; in the plane along x and z |
 //! | `free` | the same sliders, then hinges about x, y and z; in the plane about y |
 //!
-//! The equations of such a joint treat its degrees of freedom as one block of velocities: D = Hᵀ I H has a row for each
+//! The equations of such a joint treat its freedoms as one block of velocities: D = Hᵀ I H has a row for each
 //! of them.
 
 use crate::description::joint::{Axis, Coordinate, JointKey, JointWord};

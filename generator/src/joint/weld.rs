@@ -1,4 +1,4 @@
-//! A weld: it has no degree of freedom. The element moves as a part of its carrier, but keeps its name.
+//! A weld: it has no freedom. The element moves as a part of its carrier, but keeps its name.
 //!
 //! R and d are those of the carrier;   H has no column
 

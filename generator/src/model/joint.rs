@@ -1,4 +1,4 @@
-//! The joint of an element: its degrees of freedom, and how they move it.
+//! The joint of an element: its freedoms, and how they move it.
 
 use super::number::Number;
 use crate::description::joint::Coordinate;
@@ -9,18 +9,18 @@ use serde::Serialize;
 pub enum Joint {
     /// Free rotation about the joint: a ball in space, a hinge about y in the plane. The orientation is absolute.
     Ball,
-    /// Degrees of freedom, from the carrier outwards. A weld has none.
+    /// Freedoms, from the carrier outwards. A weld has none.
     Freedoms(Vec<Freedom>),
 }
 
-/// One degree of freedom.
+/// One freedom.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Freedom {
     /// Name, unique in its joint; with underscores in place of dashes, a Rust identifier.
     pub name: String,
     /// The motion about and along the axis.
     pub kind: FreedomKind,
-    /// The axis: a unit vector in the frame of the carrier, with all degrees of freedom of the joint at 0.
+    /// The axis: a unit vector in the frame of the carrier, with all freedoms of the joint at 0.
     pub axis: [Number; 3],
     /// The constant that is added to the coordinate \[rad\] or \[m\].
     pub zero: Number,
@@ -48,7 +48,7 @@ impl Freedom {
 }
 
 impl Joint {
-    /// The degrees of freedom; none for a ball joint, whose orientation is absolute.
+    /// The freedoms; none for a ball joint, whose orientation is absolute.
     pub fn freedoms(&self) -> &[Freedom] {
         match self {
             Joint::Ball => &[],
@@ -56,7 +56,7 @@ impl Joint {
         }
     }
 
-    /// The degrees of freedom, mutable.
+    /// The freedoms, mutable.
     pub fn freedoms_mut(&mut self) -> &mut [Freedom] {
         match self {
             Joint::Ball => &mut [],
@@ -70,7 +70,7 @@ impl Joint {
     }
 }
 
-/// The motion of a degree of freedom about and along its axis: a screw. Per unit of its coordinate it turns by 1, or by
+/// The motion of a freedom about and along its axis: a screw. Per unit of its coordinate it turns by 1, or by
 /// 0 if it is a slider, and slides by its advance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FreedomKind {
@@ -132,13 +132,13 @@ impl FreedomKind {
     }
 }
 
-/// The relation of a degree of freedom to its leader: q = ratio · q of the leader + offset. The follower has no
+/// The relation of a freedom to its leader: q = ratio · q of the leader + offset. The follower has no
 /// coordinate.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Follows {
     /// The element of the leader, in the same system.
     pub element: usize,
-    /// Index of the leader among the degrees of freedom of that element's joint. The leader itself follows no other.
+    /// Index of the leader among the freedoms of that element's joint. The leader itself follows no other.
     pub freedom: usize,
     /// dq/dq of the leader \[rad/rad, m/m, m/rad or rad/m\].
     pub ratio: Number,
@@ -147,7 +147,7 @@ pub struct Follows {
 }
 
 impl Follows {
-    /// The relation of a degree of freedom that follows this follower (q = ratio · q of this follower + offset) to this
+    /// The relation of a freedom that follows this follower (q = ratio · q of this follower + offset) to this
     /// follower's leader.
     pub(crate) fn followed(self, ratio: Number, offset: Number) -> Self {
         let shift = Number::product(ratio.clone(), self.offset);

@@ -13,8 +13,8 @@ use crate::rotation::{IDENTITY, Matrix, Vector, apply, product};
 #[doc(hidden)]
 pub type Column = [f64; 6];
 
-/// Rotation and origin of an element whose degrees of freedom have the coordinates `q` \[rad, m\], given those of its joint on the carrier. The
-/// parameters are in SI, in the order of the model.
+/// Rotation and origin of an element whose freedoms have the coordinates `q` \[rad, m\], given those of its joint on
+/// the carrier. The parameters are in SI, in the order of the model.
 pub fn placed(
     (mut turned, mut origin): (Matrix, Vector),
     freedoms: &[Freedom],
@@ -41,7 +41,7 @@ pub fn placed(
     (turned, origin)
 }
 
-/// The columns H of the degrees of freedom at the origin `end` of their element; `from` and `q` are as in [`placed`].
+/// The columns H of the freedoms at the origin `end` of their element; `from` and `q` are as in [`placed`].
 #[doc(hidden)]
 pub fn columns(
     from: (Matrix, Vector),

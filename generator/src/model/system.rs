@@ -29,7 +29,7 @@ pub struct Vehicle {
 pub struct System {
     /// Name, unique among the systems.
     pub name: String,
-    /// Elements, parents before children; element 0 is the root, whose origin is the reference joint.
+    /// Elements, carriers before what they carry; element 0 is the root, whose origin is the reference joint.
     pub elements: Vec<Element>,
     /// Motion of the reference joint.
     pub reference: Reference,
@@ -103,11 +103,11 @@ pub struct NamedPoint {
 pub struct Element {
     /// Name, unique in its system; with underscores in place of dashes, a Rust identifier.
     pub name: String,
-    /// Index of the parent in the same system; `None` for element 0 only.
+    /// Index of the carrier in the same system; `None` for element 0 only.
     pub parent: Option<usize>,
-    /// Position of the joint in the parent's local frame \[m\]; zero for the root.
+    /// Position of the joint in the carrier's local frame \[m\]; zero for the root.
     pub at: [Number; 3],
-    /// The joint: its freedoms relative to the parent.
+    /// The joint: its freedoms relative to the carrier.
     pub joint: Joint,
     /// Mass \[kg\].
     pub mass: Number,

@@ -15,7 +15,7 @@ pub struct ElementMotion<'g> {
     pub axes: Vec<Vec3<'g>>,
     /// The vectors s_j by which its velocities v_j move its origin relative to the carrier; empty on a ball joint.
     pub slides: Vec<Vec3<'g>>,
-    /// q and q̇ of the degrees of freedom of its joint; empty on a ball joint.
+    /// q and q̇ of the freedoms of its joint; empty on a ball joint.
     pub freedoms: Vec<(Expr<'g>, Expr<'g>)>,
     /// Whether it turns with its carrier.
     pub turns_with_carrier: bool,
@@ -33,8 +33,8 @@ pub struct ElementMotion<'g> {
     pub position: Vec3<'g>,
     /// Velocity of the joint, in absolute axes \[m/s\].
     pub velocity: Vec3<'g>,
-    /// Position of the origin relative to that of the parent, u = A_parent s on a ball joint; for the root, relative to
-    /// the reference joint \[m\].
+    /// Position of the origin relative to that of the carrier, u = A_carrier s on a ball joint; for the root, relative
+    /// to the reference joint \[m\].
     pub offset: Vec3<'g>,
 }
 

@@ -189,7 +189,7 @@ impl Layout {
         self.element(id).coordinates.clone()
     }
 
-    /// The velocities of an element's joint, each as a share of an entry of v. A degree of freedom that follows another
+    /// The velocities of an element's joint, each as a share of an entry of v. A freedom that follows another
     /// has no entry of its own; it is a share of the leader's entry.
     pub fn shares<'g>(&self, graph: &'g Graph, model: &Model, id: ElementId) -> Vec<Share<'g>> {
         let whole = |(coordinate, velocity)| Share {

@@ -1,6 +1,7 @@
-//! The motion of an element on a joint with coordinates of its own, one degree of freedom after the other from the carrier outwards.
+//! The motion of an element on a joint with coordinates of its own, one freedom after the other from the carrier
+//! outwards.
 //!
-//! A degree of freedom of advance h slides along its axis by h θ, and then turns about it by θ; or it does only one of
+//! A freedom of advance h slides along its axis by h θ, and then turns about it by θ; or it does only one of
 //! the two. R, p, ω, ε and γ are the rotation, the position, the angular velocity, the angular acceleration and the
 //! relative acceleration of its inner side: γ is the acceleration of p minus that of the carrier's origin, and ε and γ
 //! hold for v̇ = 0. With θ = q + zero and the axis e = R a,
@@ -10,8 +11,8 @@
 //! | it slides | p ← p + h e θ,   γ ← γ + ε × h e θ + ω × (ω × h e θ) + 2 ω × h e q̇ | | s = h e, and e = 0 if it does not turn |
 //! | it turns | | R ← R Rot(a, θ),   ε ← ε + ω × e q̇,   ω ← ω + e q̇ | s += e × (p_end − p) |
 //!
-//! s q̇ moves the origin p_end of the element relative to the carrier, and e q̇ turns it. The sums in ε and γ give Ḣ v. A degree of freedom does
-//! not change its own axis.   \[Featherstone 2008, ch. 3\]
+//! s q̇ moves the origin p_end of the element relative to the carrier, and e q̇ turns it. The sums in ε and γ give Ḣ v.
+//! A freedom does not change its own axis.   \[Featherstone 2008, ch. 3\]
 
 use super::element::ElementMotion;
 use super::numbers::{number, vector};
@@ -20,7 +21,7 @@ use crate::expression::{Expr, Graph};
 use crate::model::Freedom;
 use crate::model::{FreedomKind, Number};
 
-/// The angle by which a kind of degree of freedom turns per unit of its coordinate, 1 or 0, and its advance.
+/// The angle by which a kind of freedom turns per unit of its coordinate, 1 or 0, and its advance.
 pub fn turn_and_advance<'g>(graph: &'g Graph, kind: &FreedomKind) -> (f64, Expr<'g>) {
     let advance = kind.advance().unwrap_or(&Number::ZERO);
     (f64::from(kind.turns()), number(graph, advance))

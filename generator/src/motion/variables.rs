@@ -27,7 +27,7 @@ pub(crate) struct Start<'g> {
 }
 
 impl Joint {
-    /// Names and units of the joint's coordinates and velocities. A degree of freedom that follows another has none.
+    /// Names and units of the joint's coordinates and velocities. A freedom that follows another has none.
     pub(crate) fn variables(&self, orientation: Orientation) -> Variables {
         match self {
             Joint::Ball => ball::variables(orientation),

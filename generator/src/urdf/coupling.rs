@@ -6,7 +6,7 @@ use super::robot::{Joint, Robot};
 use super::tree::{Carried, Element, Forest, Problem, System};
 use crate::diagnostic::quoted;
 
-/// For each joint, its system and number of degrees of freedom.
+/// For each joint, its system and number of freedoms.
 fn freedoms(robot: &Robot, forest: &Forest) -> Vec<Option<(usize, usize)>> {
     let mut freedoms: Vec<Option<(usize, usize)>> = vec![None; robot.joints.len()];
     for (s, system) in forest.systems.iter().enumerate() {
@@ -41,7 +41,7 @@ fn is_in_circle(robot: &Robot, joint: usize) -> bool {
     false
 }
 
-/// Joints that cannot follow: the leader must have one degree of freedom, and there must be no circle.
+/// Joints that cannot follow: the leader must have one freedom, and there must be no circle.
 pub fn problems(robot: &Robot, forest: &Forest) -> Vec<Problem> {
     let freedoms = freedoms(robot, forest);
     let mut problems = Vec::new();

@@ -552,7 +552,7 @@ impl Writer<'_> {
         )
     }
 
-    /// The key `follows` of a degree of freedom whose leader is in the same system.
+    /// The key `follows` of a freedom whose leader is in the same system.
     fn follows(&self, elements: &[Element], mimic: &Mimic) -> String {
         let freedoms = elements.iter().flat_map(|element| {
             let freedoms = match &element.carried {
@@ -596,7 +596,7 @@ impl Writer<'_> {
             if joint.damping != 0.0 {
                 write!(law, ", damping: {}", number(joint.damping))?;
             }
-            // the friction and damping of a planar joint apply to each degree of freedom
+            // the friction and damping of a planar joint apply to each freedom
             if joint.friction != 0.0 {
                 write!(law, ", friction: {}", number(joint.friction))?;
             }

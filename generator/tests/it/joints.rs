@@ -462,7 +462,7 @@ fn mistakes_are_told_with_their_remedy() {
         ),
         (
             "[{ slider: x }, { slider: y }, { slider: z }, { hinge: x }, { hinge: y }, { hinge: z }, { hinge: x, name: more }]",
-            "more than a body can have",
+            "more than an element can have",
         ),
         ("[{ hinge: x, name: Bad Name }]", "Bad Name"),
         ("{ hinge: x, armature: -1 }", "must not be negative"),

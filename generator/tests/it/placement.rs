@@ -6,7 +6,7 @@ use bryant_generator::read_str;
 
 use bryant_generator::rotation::{of_roll_pitch_yaw, product, transpose};
 
-/// The degrees of freedom of an element on a joint as written.
+/// The freedoms of an element on a joint as written.
 fn freedoms(joint: &str) -> Vec<Freedom> {
     let text = format!(
         "model: one\ndimension: 3\nsystems:\n  - name: s\n    reference: fixed\n    elements:\n      \

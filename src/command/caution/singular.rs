@@ -1,9 +1,9 @@
-//! Finds positions in which two degrees of freedom of a joint move its element in the same way.
+//! Finds positions in which two freedoms of a joint move its element in the same way.
 //!
-//! A joint with several degrees of freedom and no mass between them is singular if its columns H (see
+//! A joint with several freedoms and no mass between them is singular if its columns H (see
 //! `bryant_generator::joint`) are linearly dependent, that is if the Gram determinant det Ĥᵀ Ĥ is 0, where Ĥ are the
 //! columns scaled to length 1. Near such a position rates become extreme and steps short. The columns depend only on
-//! the coordinates between the first and the last degree of freedom. The smallest determinant within the stops is
+//! the coordinates between the first and the last freedom. The smallest determinant within the stops is
 //! searched from many start values. This proves nothing, but the joints of two or three hinges and sliders that users
 //! write have few minima.
 
@@ -27,20 +27,20 @@ const CLOSE: f64 = 1e-3;
 /// Number of start values of the search, for each coordinate.
 const PLACES: usize = 200;
 
-/// A joint with several degrees of freedom.
+/// A joint with several freedoms.
 struct Several {
     /// The element that it carries.
     name: String,
-    degrees_of_freedom: Vec<One>,
+    freedoms: Vec<One>,
 }
 
-/// A degree of freedom, at given values of the parameters.
+/// A freedom, at given values of the parameters.
 struct One {
     name: String,
     axis: Vector,
     zero: f64,
     turns: bool,
-    /// Displacement per unit of the coordinate \[m\], if the degree of freedom translates.
+    /// Displacement per unit of the coordinate \[m\], if the freedom translates.
     advance: Option<f64>,
     /// The range between the stops.
     stops: [f64; 2],
@@ -81,7 +81,7 @@ pub fn at(
     };
     let joints = joints(model, parameters);
     let found = joints.iter().find_map(|(joint, start)| {
-        let names = joint.degrees_of_freedom.iter().zip(start);
+        let names = joint.freedoms.iter().zip(start);
         let q = names.map(|(one, start)| {
             let name = format!("{}.{}", joint.name, one.name);
             state(&name).unwrap_or(*start)
@@ -90,7 +90,7 @@ pub fn at(
         (joint.determinant(&q) < least).then_some((joint, q))
     });
     found.map(|(joint, q)| {
-        let named = joint.degrees_of_freedom.iter().zip(&q);
+        let named = joint.freedoms.iter().zip(&q);
         let shown: Vec<String> = named
             .map(|(one, q)| format!("{} = {}", one.name, one.shown(*q)))
             .collect();
@@ -105,18 +105,16 @@ pub fn at(
     })
 }
 
-/// The joints with several degrees of freedom, and the coordinates of each at the start, for these values of the
+/// The joints with several freedoms, and the coordinates of each at the start, for these values of the
 /// parameters.
 fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     let mut all = Vec::new();
     for (s, system) in model.systems.iter().enumerate() {
         for (e, element) in system.elements.iter().enumerate() {
-            let Joint::Freedoms(degrees_of_freedom) = &element.joint else {
+            let Joint::Freedoms(freedoms) = &element.joint else {
                 continue;
             };
-            if degrees_of_freedom.len() < 2
-                || degrees_of_freedom.iter().any(|freedom| !freedom.is_own())
-            {
+            if freedoms.len() < 2 || freedoms.iter().any(|freedom| !freedom.is_own()) {
                 continue;
             }
             let id = ElementId {
@@ -138,9 +136,9 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
             };
             let joint = Several {
                 name: format!("{}/{}", system.name, element.name),
-                degrees_of_freedom: degrees_of_freedom.iter().enumerate().map(of).collect(),
+                freedoms: freedoms.iter().enumerate().map(of).collect(),
             };
-            let start = degrees_of_freedom
+            let start = freedoms
                 .iter()
                 .map(|freedom| freedom.position.value(parameters));
             all.push((joint, start.collect()));
@@ -149,7 +147,7 @@ fn joints(model: &Model, parameters: &[f64]) -> Vec<(Several, Vec<f64>)> {
     all
 }
 
-/// The range of a degree of freedom between stops that act at all times.
+/// The range of a freedom between stops that act at all times.
 fn stops(model: &Model, joint: ElementId, index: usize, defaults: &[f64]) -> [f64; 2] {
     let mut ends = [f64::NEG_INFINITY, f64::INFINITY];
     for force in &model.forces {
@@ -176,11 +174,8 @@ impl Several {
         if let Some(found) = self.nearly_alike() {
             return Some(found);
         }
-        let inner = self.degrees_of_freedom.len() - 1;
-        let ranges: Vec<[f64; 2]> = self.degrees_of_freedom[..inner]
-            .iter()
-            .map(One::range)
-            .collect();
+        let inner = self.freedoms.len() - 1;
+        let ranges: Vec<[f64; 2]> = self.freedoms[..inner].iter().map(One::range).collect();
         let found = self.smallest(&ranges)?;
         let relevant: Vec<usize> = (1..inner)
             .filter(|&index| self.depends_on(&found, index))
@@ -191,18 +186,18 @@ impl Several {
         if others.is_empty() {
             places = self.all_places(&found, *first, ranges[*first]);
         }
-        let one = &self.degrees_of_freedom[*first];
+        let one = &self.freedoms[*first];
         let listed: Vec<String> = places.iter().map(|place| one.shown(*place)).collect();
         let mut place = format!("{} = {}", one.name, listed.join(" or "));
         for index in others {
-            let one = &self.degrees_of_freedom[*index];
+            let one = &self.freedoms[*index];
             place.push_str(&format!(" and {} = {}", one.name, one.shown(found[*index])));
         }
         let reaches = |place: f64, one: &One| (one.stops[0]..=one.stops[1]).contains(&place);
         let reached = places.iter().any(|place| reaches(*place, one))
             && others
                 .iter()
-                .all(|index| reaches(found[*index], &self.degrees_of_freedom[*index]));
+                .all(|index| reaches(found[*index], &self.freedoms[*index]));
         let alike = self.alike(&found).join(" and ");
         let how = match reached {
             true => "is singular at",
@@ -220,10 +215,10 @@ impl Several {
         ))
     }
 
-    /// The warning about two successive degrees of freedom with nearly the same axis, which are alike at all positions.
+    /// The warning about two successive freedoms with nearly the same axis, which are alike at all positions.
     /// (Equal axes are refused with the model.)
     fn nearly_alike(&self) -> Option<String> {
-        self.degrees_of_freedom.windows(2).find_map(|pair| {
+        self.freedoms.windows(2).find_map(|pair| {
             let [one, other] = pair else { return None };
             let pure = |one: &One| one.turns != one.advance.is_some() && one.rotor == 0.0;
             let across = cross(one.axis, other.axis);
@@ -244,13 +239,13 @@ impl Several {
         })
     }
 
-    /// H, one column for each degree of freedom: the velocity of the element's origin divided by `LENGTH`, and its
+    /// H, one column for each freedom: the velocity of the element's origin divided by `LENGTH`, and its
     /// angular velocity.
     fn columns(&self, q: &[f64]) -> Vec<[f64; 6]> {
         let mut rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut slid = [0.0; 3];
         let mut found: Vec<(Vector, Vector, Option<Vector>)> = Vec::new();
-        for (index, one) in self.degrees_of_freedom.iter().enumerate() {
+        for (index, one) in self.freedoms.iter().enumerate() {
             let position = q.get(index).copied().unwrap_or(0.0) + one.zero;
             let axis = times(&rotation, one.axis);
             let slide = axis.map(|a| a * one.advance.unwrap_or(0.0));
@@ -282,7 +277,7 @@ impl Several {
         let dot = |a: &[f64; 6], b: &[f64; 6]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let row = |(i, a): (usize, &[f64; 6])| -> Vec<f64> {
             let entry = |(j, b): (usize, &[f64; 6])| match i == j {
-                true => dot(a, b) + self.degrees_of_freedom[j].rotor,
+                true => dot(a, b) + self.freedoms[j].rotor,
                 false => dot(a, b),
             };
             columns.iter().enumerate().map(entry).collect()
@@ -379,7 +374,7 @@ impl Several {
             let there = there[index];
             let is_new = |place: &f64| {
                 let apart = (there - place).abs();
-                let round = match self.degrees_of_freedom[index].turns {
+                let round = match self.freedoms[index].turns {
                     true => (TAU - apart).abs().min(apart),
                     false => apart,
                 };
@@ -392,10 +387,10 @@ impl Several {
         places
     }
 
-    /// The names of the degrees of freedom that are linearly dependent in a singular position.
+    /// The names of the freedoms that are linearly dependent in a singular position.
     fn alike(&self, q: &[f64]) -> Vec<String> {
         let gram = self.gram(q);
-        let all = 0..self.degrees_of_freedom.len();
+        let all = 0..self.freedoms.len();
         // a column is one of the dependent ones if the others are independent without it
         let needed = |without: &usize| {
             let keep: Vec<usize> = all.clone().filter(|i| i != without).collect();
@@ -404,9 +399,7 @@ impl Several {
             rest > SOUND
         };
         let named = all.clone().filter(needed);
-        named
-            .map(|i| self.degrees_of_freedom[i].name.clone())
-            .collect()
+        named.map(|i| self.freedoms[i].name.clone()).collect()
     }
 }
 

@@ -1,4 +1,4 @@
-//! The physical quantities that belong to the coordinate of a degree of freedom.
+//! The physical quantities that belong to the coordinate of a freedom.
 
 use crate::description::joint::Coordinate;
 use crate::description::measure::{

@@ -117,7 +117,7 @@ fn parents(
                 .filter(|n| *n != element.name);
             resolver.problems.add(here.key("on").problem(
                 format!(
-                    "the parent {} of element {} does not exist",
+                    "the carrier {} of element {} does not exist",
                     quoted(on),
                     quoted(&element.name)
                 ),

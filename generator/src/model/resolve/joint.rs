@@ -1,4 +1,4 @@
-//! The joint of an element, from its written form: a word, or keys below `joint`. What stands for which degrees of freedom
+//! The joint of an element, from its written form: a word, or keys below `joint`. What stands for which freedoms
 //! is said by the files of [kinds](crate::joint).
 
 use super::name::Style;
@@ -14,14 +14,14 @@ use crate::diagnostic::{nearest, quoted};
 use crate::model::{Coordinate, FreedomKind, Number};
 use crate::model::{Freedom, Joint};
 
-/// The largest number of degrees of freedom of one joint: those of a free body.
+/// The largest number of freedoms of one joint: those of a free body.
 const MOST: usize = 6;
 
-/// A key of a joint that stands for degrees of freedom, and how they are read.
+/// A key of a joint that stands for freedoms, and how they are read.
 pub(crate) struct Spelling {
     /// The key as written.
     pub written: JointKey,
-    /// Reads these degrees of freedom; `None` after a reported problem.
+    /// Reads these freedoms; `None` after a reported problem.
     pub read: fn(&Reader<'_>) -> Option<Vec<Made>>,
 }
 
@@ -33,7 +33,7 @@ pub(crate) struct Word {
     pub joint: fn(&Resolver<'_>, At<'_>) -> Joint,
 }
 
-/// A degree of freedom that has no name yet.
+/// A freedom that has no name yet.
 pub(crate) struct Made {
     /// The kind of motion.
     pub kind: FreedomKind,
@@ -42,7 +42,7 @@ pub(crate) struct Made {
 }
 
 impl Made {
-    /// A degree of freedom of this kind about or along a direction.
+    /// A freedom of this kind about or along a direction.
     pub fn new(kind: FreedomKind, direction: Direction) -> Self {
         Made { kind, direction }
     }
@@ -255,7 +255,7 @@ impl<'r> Reader<'r> {
     }
 }
 
-/// A degree of freedom with its keys in the list.
+/// A freedom with its keys in the list.
 struct Listed<'w> {
     made: Made,
     name: Option<&'w str>,
@@ -305,12 +305,12 @@ pub(crate) fn spellings(resolver: &Resolver<'_>, written: &Written) -> Vec<&'sta
     spellings.filter(there).collect()
 }
 
-/// The joint with these degrees of freedom, which have no keys of their own.
+/// The joint with these freedoms, which have no keys of their own.
 pub(crate) fn joint_of_made(resolver: &Resolver<'_>, made: Vec<Made>, at: At<'_>) -> Joint {
     named(resolver, made.into_iter().map(Listed::plain).collect(), at)
 }
 
-/// The degrees of freedom for which one written joint stands.
+/// The freedoms for which one written joint stands.
 fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<Listed<'w>> {
     let there = spellings(resolver, written);
     let [spelling] = there[..] else {
@@ -321,7 +321,7 @@ fn listed<'w>(resolver: &Resolver<'_>, written: &'w Written, at: At<'w>) -> Vec<
     let number = |value: Option<&Quantity>, key, expected: fn(Coordinate) -> Expected| {
         match (value, spelling.written.coordinates) {
             (Some(value), [one]) => resolver.number_in(value, at.key(key), expected(*one)),
-            // a joint of several degrees of freedom refuses this key
+            // a joint of several freedoms refuses this key
             _ => Number::ZERO,
         }
     };
@@ -393,13 +393,13 @@ fn check_keys(resolver: &Resolver<'_>, written: &Written, spelling: &Spelling, a
     }
 }
 
-/// The degrees of freedom with their names. A name that is not given is made from the kind, and in a list also from the
+/// The freedoms with their names. A name that is not given is made from the kind, and in a list also from the
 /// axis.
 fn named(resolver: &Resolver<'_>, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint {
     if listed.len() > MOST {
         resolver.problems.add(at.problem(
             format!(
-                "a joint of {} freedoms has more than a body can have",
+                "a joint of {} freedoms has more than an element can have",
                 listed.len()
             ),
             "six are enough: three sliders and three hinges",
@@ -438,7 +438,7 @@ fn named(resolver: &Resolver<'_>, listed: Vec<Listed<'_>>, at: At<'_>) -> Joint 
     Joint::Freedoms(freedoms)
 }
 
-/// Coordinates or rates at the start of the degrees of freedom of a joint, as one value or a list.
+/// Coordinates or rates at the start of the freedoms of a joint, as one value or a list.
 pub(crate) fn freedoms_at_start<U>(
     resolver: &Resolver<'_>,
     (path, freedoms): (&str, &mut [Freedom]),
