@@ -9,7 +9,7 @@ use bryant_engine::Engine;
 use bryant_engine::batch::{Rows, Wanted};
 use bryant_runtime::batch::{Pace, Settings, rows};
 use bryant_runtime::program::{Job, Outcome};
-use bryant_runtime::{Dynamics, Formula, Method, Tolerances, Width};
+use bryant_runtime::{Dynamics, Formula, Integrator, Tolerances, Width};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -79,7 +79,7 @@ fn pass(number: u32) {
     assert!(outcome.result.is_ok() && outcome.doubts.is_empty());
     // Runge and Kutta's method is stable up to ω h = 2.83
     let too_long = |step| Job {
-        method: Some(Method::fixed(Formula::Rk4, step)),
+        method: Some(Integrator::fixed(Formula::Rk4, step)),
         ..Job::default()
     };
     let doubtful = run(&too_long(0.03));
