@@ -136,7 +136,7 @@ fn sentences_of_a_schema_have_meaning_unit_and_default_without_links() {
     };
     assert_eq!(
         said("a spring", "damping"),
-        "viscous coefficient on the rate of the length [N·s/m]; default: 0"
+        "viscous coefficient on the rate of the length [N·s/m, ≥ 0]; default: 0"
     );
     assert_eq!(
         said("a joint force", "since"),
