@@ -5,13 +5,13 @@ use crate::description::measure::{
     Area, GasConstant, MassFlow, NotNegative, Positive, Pressure, Pure, Temperature, Time,
 };
 use crate::description::quantity::Number;
-use crate::description::shape::{Key, record};
+use crate::description::shape::record;
 use crate::model::Ellipsoid;
 use crate::model::declared::{
     Checked, Declared, DeclaredLaw, OrDefault, Present, Reader, Required, RequiredCurve,
     SwitchName, Written, declare,
 };
-use crate::model::resolve::law::record;
+use crate::model::resolve::law::{TitledKeys, record};
 
 /// The keys of an airbag.
 pub type AirbagKeys = Written<Airbag>;
@@ -106,7 +106,7 @@ record! {
 
 impl DeclaredLaw for Airbag {
     const KEY: &'static str = "airbag";
-    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] = &[
+    const RECORDS: &'static [fn() -> TitledKeys] = &[
         record::<Written<Inflow>>,
         record::<Written<Gas>>,
         record::<Vent>,

@@ -87,11 +87,10 @@ impl Kind for Rings {
         let belt = name(reader);
         let mut rings: Vec<Ring> = Vec::new();
         let mut all = true;
-        let mut readers = reader.below_list("through");
-        while let Some(mut reader) = readers.next() {
+        reader.each_below("through", |mut reader| {
             let Some(ring) = Ring::read(&mut reader) else {
                 all = false;
-                continue;
+                return;
             };
             let (problems, at) = (&reader.resolver.problems, reader.at.key("ring"));
             if rings.iter().any(|other| other.name == ring.name) {
@@ -107,7 +106,7 @@ impl Kind for Rings {
                 ));
             }
             rings.push(ring);
-        }
+        });
         all.then_some(rings)
     }
 

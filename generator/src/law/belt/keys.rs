@@ -7,13 +7,13 @@ use crate::description::measure::{
     Force, ForcePerElongation, Length, LinearDamping, NotNegative, Positive, Pure, Time, Webbing,
 };
 use crate::description::quantity::Number;
-use crate::description::shape::{Flat, Key, record};
+use crate::description::shape::{Flat, record};
 use crate::model::Attachment;
 use crate::model::declared::{
     Checked, Coefficient, Declared, DeclaredLaw, Fade, OrDefault, PointOfBody, Reader,
     RequiredCurve, SwitchName, Unloading, Written, declare,
 };
-use crate::model::resolve::law::record;
+use crate::model::resolve::law::{TitledKeys, record};
 
 /// The keys of a belt.
 pub type BeltKeys = Written<Belt>;
@@ -141,7 +141,7 @@ record! {
 impl DeclaredLaw for Belt {
     const KEY: &'static str = "belt";
     const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["from", "to"]);
-    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] = &[
+    const RECORDS: &'static [fn() -> TitledKeys] = &[
         record::<End>,
         record::<Written<Ring>>,
         record::<Written<Retractor>>,

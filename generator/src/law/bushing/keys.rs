@@ -7,7 +7,7 @@ use crate::description::measure::{
     Length, NotNegative,
 };
 use crate::description::quantity::Number;
-use crate::description::shape::{Flat, Key, record};
+use crate::description::shape::{Flat, record};
 use crate::diagnostic::quoted;
 use crate::model::declared::{
     Angles, Coefficient, Declaration, Declared, DeclaredLaw, Elastic, Kind, Names, NoKey,
@@ -15,7 +15,7 @@ use crate::model::declared::{
 };
 use crate::model::law::Terms;
 use crate::model::part::{AXES, Field};
-use crate::model::resolve::law::record;
+use crate::model::resolve::law::{TitledKeys, record};
 use crate::model::{Body, Dimension};
 
 /// The keys of a bushing.
@@ -113,7 +113,7 @@ impl Declared for Direction {}
 
 impl DeclaredLaw for Bushing {
     const KEY: &'static str = "bushing";
-    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] = &[
+    const RECORDS: &'static [fn() -> TitledKeys] = &[
         record::<Written<Mount>>,
         record::<Directions>,
         record::<Rotations>,

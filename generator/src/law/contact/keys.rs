@@ -8,7 +8,7 @@ use crate::description::measure::{
     Stiffness,
 };
 use crate::description::quantity::Number;
-use crate::description::shape::{Flat, Key};
+use crate::description::shape::Flat;
 use crate::description::short_forms::ByName;
 use crate::description::surface::{Edge, Ellipsoid as WrittenEllipsoid, Plane};
 use crate::model::Ellipsoid;
@@ -16,7 +16,7 @@ use crate::model::declared::{
     Coefficient, DeclaredLaw, Elastic, Fade, Holding, Reader, Rubbing, Unloading, Written, declare,
 };
 use crate::model::resolve::NOWHERE;
-use crate::model::resolve::law::record;
+use crate::model::resolve::law::{TitledKeys, record};
 
 /// The keys of a contact.
 pub type ContactKeys = Written<Contact>;
@@ -76,7 +76,7 @@ declare! {
 impl DeclaredLaw for Contact {
     const KEY: &'static str = "contact";
     const EXCHANGEABLE: Option<[&'static str; 2]> = Some(["ellipsoid", "with"]);
-    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] =
+    const RECORDS: &'static [fn() -> TitledKeys] =
         &[record::<WrittenEllipsoid>, record::<Plane>, record::<Edge>];
 
     fn check_keys(name: &str, reader: &Reader<'_, '_, '_>) {

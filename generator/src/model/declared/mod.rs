@@ -16,7 +16,7 @@ use super::law::Law;
 use super::number::Number;
 use super::part::{Field, Fresh, Part, Term};
 use super::resolve::Resolver;
-use super::resolve::law::{Keys, Outputs};
+use super::resolve::law::{Keys, Outputs, TitledKeys};
 use super::rule::{Rule, Ruled};
 use crate::description::expand::{Expander, Node};
 use crate::description::measure::InPlace;
@@ -141,12 +141,17 @@ impl<'m, 'w> Reader<'_, 'm, 'w> {
     }
 
     /// Reads the records of the list at a key, one after the other; none if the key is not written.
-    pub fn below_list<'s>(&'s mut self, key: &str) -> Readers<'s, 'm, 'w> {
+    pub fn each_below(&mut self, key: &str, mut read: impl FnMut(Reader<'_, 'm, 'w>)) {
         let list = self.value.get(key).and_then(Value::as_sequence);
-        Readers {
-            values: list.map_or(&[][..], Vec::as_slice).iter().enumerate(),
-            at: self.at.key(key),
-            resolver: self.resolver,
+        for (index, value) in list.into_iter().flatten().enumerate() {
+            read(Reader {
+                resolver: self.resolver,
+                value,
+                at: self.at.key(key).item(index),
+                slides: false,
+                loading: Loading::default(),
+                default: "",
+            });
         }
     }
 
@@ -160,28 +165,6 @@ impl<'m, 'w> Reader<'_, 'm, 'w> {
             loading: Loading::default(),
             default: "",
         }
-    }
-}
-
-/// The records of a list.
-pub struct Readers<'r, 'm, 'w> {
-    values: std::iter::Enumerate<std::slice::Iter<'w, Value>>,
-    at: At<'w>,
-    resolver: &'r mut Resolver<'m>,
-}
-
-impl<'m, 'w> Readers<'_, 'm, 'w> {
-    /// The next record. Not an iterator: each borrows the model.
-    pub fn next(&mut self) -> Option<Reader<'_, 'm, 'w>> {
-        let (index, value) = self.values.next()?;
-        Some(Reader {
-            resolver: self.resolver,
-            value,
-            at: self.at.item(index),
-            slides: false,
-            loading: Loading::default(),
-            default: "",
-        })
     }
 }
 
@@ -291,7 +274,7 @@ pub trait DeclaredLaw: Declaration + Law {
     /// True if the law has outputs.
     const OBSERVABLE: bool = true;
     /// The records below it, in the order of the reference page.
-    const RECORDS: &'static [fn() -> (&'static str, Vec<Key>)] = &[];
+    const RECORDS: &'static [fn() -> TitledKeys] = &[];
     /// Reports keys that do not go together. `name` is that of the force.
     fn check_keys(_name: &str, _: &Reader<'_, '_, '_>) {}
 
@@ -385,7 +368,7 @@ impl<L: DeclaredLaw + Outputs> Keys for Written<L> {
         Some(Box::new(law))
     }
 
-    fn records() -> Vec<(&'static str, Vec<Key>)> {
+    fn records() -> Vec<TitledKeys> {
         let below = L::RECORDS.iter().map(|record| record());
         std::iter::once((L::TITLE, L::keys()))
             .chain(below)

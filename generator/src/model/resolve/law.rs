@@ -40,7 +40,7 @@ pub trait Keys: Record {
     fn check(&self, resolver: &mut Resolver<'_>, at: At<'_>) -> Option<Box<dyn Law>>;
 
     /// The records of the law's keys, in the order of the reference page.
-    fn records() -> Vec<(&'static str, Vec<Key>)>;
+    fn records() -> Vec<TitledKeys>;
 
     /// Turns a copy of the force, apart from its name, into its mirror image.
     fn mirror(_: &Expander<'_>, _image: &mut Node) {}
@@ -125,7 +125,10 @@ fn enter<K: Keys + Shape>(
 }
 
 /// The title of a record, and its keys.
-pub(crate) fn record<R: Record>() -> (&'static str, Vec<Key>) {
+pub type TitledKeys = (&'static str, Vec<Key>);
+
+/// The title of this record, and its keys.
+pub(crate) fn record<R: Record>() -> TitledKeys {
     (R::TITLE, R::keys())
 }
 
