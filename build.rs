@@ -1,4 +1,5 @@
-//! Tells the program the commit that it is built from ("unknown" where nothing says it), and puts the texts of the bundled models into it.
+//! Tells the program the commit that it is built from ("unknown" where nothing says it), and puts the texts of the
+//! bundled models into it.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -67,8 +68,8 @@ fn of_repository() -> Option<String> {
     if here.ok()? != top.ok()? {
         return None;
     }
-    // Every commit and every change of branch writes to one of these files. Of a file that does not exist cargo would always say that it has
-    // changed.
+    // Every commit and every change of branch writes to one of these files. Of a file that does not exist cargo would
+    // always say that it has changed.
     let branch = git(&["symbolic-ref", "--quiet", "HEAD"]);
     for file in ["HEAD", "logs/HEAD", "packed-refs"]
         .into_iter()

@@ -6,8 +6,8 @@
 //! cargo bench --bench waiting-times -- --clone       and the README's two commands in a fresh clone (half an hour)
 //! ```
 //!
-//! Every line is the median of a few runs of the whole process, in wall time, beside its goal. The first row of a goal is the first line on
-//! standard output.
+//! Every line is the median of a few runs of the whole process, in wall time, beside its goal. The first row of a goal
+//! is the first line on standard output.
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;

@@ -1,4 +1,5 @@
-//! Lists the valid models that cases spoil: those of the workspace, or the copies in a package, which `.ci/package` puts into `samples`.
+//! Lists the valid models that cases spoil: those of the workspace, or the copies in a package, which `.ci/package`
+//! puts into `samples`.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -1,9 +1,11 @@
 //! A run as an animation in glTF 2.0: one binary file that Blender, game engines and viewers on the web open.
 //!
-//! Every body is a node with keyframes of its position and its rotation, with less than a quarter turn from one to the next; its ellipsoids, bones and planes are
-//! meshes on nodes below it. A belt or a spring is made of rods; keyframes rotate and stretch each from one end to the other. A belt has its rods in several colours
-//! and widths, by force, one of which is there at a time: the others have the scale 0, by which glTF 2.0 (3.7.3.1) hides nodes. A camera moves with the body that the
-//! view [stays with](Scene::followed). All nodes are below one node that rotates z up into y up, as glTF requires. Units are metres and seconds.
+//! Every body is a node with keyframes of its position and its rotation, with less than a quarter turn from one to the
+//! next; its ellipsoids, bones and planes are meshes on nodes below it. A belt or a spring is made of rods; keyframes
+//! rotate and stretch each from one end to the other. A belt has its rods in several colours and widths, by force, one
+//! of which is there at a time: the others have the scale 0, by which glTF 2.0 (3.7.3.1) hides nodes. A camera moves
+//! with the body that the view [stays with](Scene::followed). All nodes are below one node that rotates z up into y up,
+//! as glTF requires. Units are metres and seconds.
 
 mod file;
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
@@ -41,7 +43,8 @@ const OF_PLANES: [f64; 4] = [0.55, 0.57, 0.6, 0.35];
 const OF_SPRINGS: [f64; 4] = [0.20, 0.08, 0.30, 1.0];
 const OF_BAGS: [f64; 4] = [0.11, 0.16, 0.22, 0.3];
 
-/// Colours of a slack belt and of one that pulls with the largest force, and the number of steps between nothing and that force.
+/// Colours of a slack belt and of one that pulls with the largest force, and the number of steps between nothing and
+/// that force.
 const SLACK: [f64; 4] = [0.32, 0.37, 0.42, 1.0];
 const LEAST: [f64; 4] = [0.79, 0.35, 0.0, 1.0];
 const MOST: [f64; 4] = [0.43, 0.0, 0.014, 1.0];
@@ -141,7 +144,8 @@ impl File<'_> {
         }
     }
 
-    /// Adds rods within bodies that have no ellipsoid and no mesh. Rods between two bodies, of sliding joints, are left out.
+    /// Adds rods within bodies that have no ellipsoid and no mesh. Rods between two bodies, of sliding joints, are left
+    /// out.
     fn bones(&mut self) {
         let scene = self.scene;
         let is_round = |body| {
@@ -237,7 +241,8 @@ impl File<'_> {
         }
     }
 
-    /// The looks of a line that is at these steps of force: mesh and radius of each, and the times and scales by which it is there.
+    /// The looks of a line that is at these steps of force: mesh and radius of each, and the times and scales by which
+    /// it is there.
     fn looks(&mut self, kind: LineKind, steps: &[usize]) -> Vec<(usize, f64, Option<Shows>)> {
         if kind != LineKind::Belt {
             return vec![(self.shape(Shape::Rod, OF_SPRINGS), THIN, None)];

@@ -1,8 +1,8 @@
 //! Modes of a linear system ẋ = A x: eigenvalues, and the motions that belong to them.
 //!
-//! Eigenvalues come from the real Schur form of A after balancing (Parlett and Reinsch 1969), eigenvectors by inverse iteration with a
-//! shift beside the eigenvalue, which also sharpens it by Rayleigh's quotient. It is done on the Hessenberg form, H = Qᵀ A Q, whose
-//! elimination takes n² operations.
+//! Eigenvalues come from the real Schur form of A after balancing (Parlett and Reinsch 1969), eigenvectors by inverse
+//! iteration with a shift beside the eigenvalue, which also sharpens it by Rayleigh's quotient. It is done on the
+//! Hessenberg form, H = Qᵀ A Q, whose elimination takes n² operations.
 
 mod coincidence;
 
@@ -19,7 +19,8 @@ pub struct Mode {
     pub rate: Number,
     /// The shape, an entry for each of x in its unit, scaled so that the largest is 1.
     pub shape: Vec<Number>,
-    /// How well A x = λ x holds: the norm of the difference, by that of A and x, after balancing. λ counts as 0 if it is [`hidden`].
+    /// How well A x = λ x holds: the norm of the difference, by that of A and x, after balancing. λ counts as 0 if it
+    /// is [`hidden`].
     pub residual: f64,
 }
 
@@ -45,21 +46,23 @@ pub enum NoModes {
 /// Largest number of iterations for a Schur form.
 const ITERATIONS: usize = 100_000;
 
-/// The share of the largest |λ| below which rounding hides an eigenvalue: two that coincide at 0, as those of a free motion, are found
-/// about √ε = 1.5e-8 from it, times a factor that grows with the size of A: 64 is a margin.
+/// The share of the largest |λ| below which rounding hides an eigenvalue: two that coincide at 0, as those of a free
+/// motion, are found about √ε = 1.5e-8 from it, times a factor that grows with the size of A: 64 is a margin.
 const HIDDEN: f64 = 64.0 * 1.5e-8;
 
-/// The share of |λ| below which an imaginary part is rounding: two real eigenvalues that coincide are found about √ε apart.
+/// The share of |λ| below which an imaginary part is rounding: two real eigenvalues that coincide are found about √ε
+/// apart.
 const COINCIDE: f64 = 1e-7;
 
 /// The |λ| \[1/s\] below which nothing moves: a factor of e in thirty years.
 const STILL: f64 = 1e-9;
 
-/// Nothing moves in a mode of states of force laws if what moves is below this share of them \[SI\]: half of the digits.
+/// Nothing moves in a mode of states of force laws if what moves is below this share of them \[SI\]: half of the
+/// digits.
 const STANDS: f64 = 1e-8;
 
-/// The modes of A, by rows, slowest first. `mass` is S, by rows, of the velocities whose coordinates are the first entries of x; without
-/// entries the shapes of rates that coincide are as they were found.
+/// The modes of A, by rows, slowest first. `mass` is S, by rows, of the velocities whose coordinates are the first
+/// entries of x; without entries the shapes of rates that coincide are as they were found.
 ///
 /// # Errors
 /// See [`NoModes`].

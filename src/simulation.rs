@@ -49,7 +49,8 @@ pub struct Recording {
     pub notes: Vec<String>,
     /// The smallest value of each event function, in the order of the header; empty if the run did not start.
     pub nearest: Vec<f64>,
-    /// Time of the computation, including the writing of machine code in the first run of an engine, without deriving, starting and printing.
+    /// Time of the computation, including the writing of machine code in the first run of an engine, without deriving,
+    /// starting and printing.
     pub wall: Duration,
 }
 

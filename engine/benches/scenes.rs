@@ -5,9 +5,10 @@
 //! cargo bench -p bryant-engine --bench scenes -- occupant
 //! ```
 //!
-//! A run is watched and has its samples, as in `bryant run`. Its time is divided by that of its evaluations. A second run counts and times
-//! the calls of every method. The time of a call is the median, less the time of reading the clock, so a busy machine gives the same result
-//! as an idle one. The time of a run is processor time, where the system tells it.
+//! A run is watched and has its samples, as in `bryant run`. Its time is divided by that of its evaluations. A second
+//! run counts and times the calls of every method. The time of a call is the median, less the time of reading the
+//! clock, so a busy machine gives the same result as an idle one. The time of a run is processor time, where the system
+//! tells it.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;

@@ -1,7 +1,7 @@
 //! Many states of one model at once: rates, sections, matrices, and rollouts in steps of one length.
 //!
-//! Rows become lanes of the widest registers that the processor has, and are shared among threads. A row has the same bits
-//! whatever its neighbours are, however many there are, and on however many threads.
+//! Rows become lanes of the widest registers that the processor has, and are shared among threads. A row has the same
+//! bits whatever its neighbours are, however many there are, and on however many threads.
 
 mod lanes;
 
@@ -26,8 +26,8 @@ pub struct Rows<'a> {
     pub states: &'a [f64],
     /// a: accelerations that functions need, as many as [`Info::velocities`] for each row. If empty, they are 0.
     pub accelerations: &'a [f64],
-    /// The varying parameters \[SI\], as many as [`Batch::vary`] names for each row. If empty, each row has the values of
-    /// [`Batch::set_parameters`].
+    /// The varying parameters \[SI\], as many as [`Batch::vary`] names for each row. If empty, each row has the values
+    /// of [`Batch::set_parameters`].
     pub inputs: &'a [f64],
 }
 
@@ -129,8 +129,8 @@ const REPEATED: usize = 8;
 pub struct Batch {
     /// The parameters that each row has.
     varying: Varying,
-    /// The least value that each of them may have, and the greatest, for [`REPEATED`] rows; finite, so that other values
-    /// are beyond them.
+    /// The least value that each of them may have, and the greatest, for [`REPEATED`] rows; finite, so that other
+    /// values are beyond them.
     limits: [Vec<f64>; 2],
     /// All parameters \[SI\].
     parameters: Vec<f64>,
@@ -321,8 +321,8 @@ impl Batch {
         Ok(())
     }
 
-    /// Takes steps from each row. The states after each step go to `states` (q, v, z and m), the outputs after each step
-    /// to `outputs`: for each row its steps, one after the other. Either may be empty, and is not recorded then.
+    /// Takes steps from each row. The states after each step go to `states` (q, v, z and m), the outputs after each
+    /// step to `outputs`: for each row its steps, one after the other. Either may be empty, and is not recorded then.
     /// The inputs are those of [`Rollout::hold`], for each row its steps one after the other.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! Engines in files: the derived lists of a model, so that loading needs neither the description nor a derivation.
 //!
-//! A file is a line with the version, the form of lists and the length of the rest, the SHA-256 of the rest, and the rest: [`Lists`] as
-//! [postcard](https://postcard.jamesmunns.com/wire-format).
+//! A file is a line with the version, the form of lists and the length of the rest, the SHA-256 of the rest, and the
+//! rest: [`Lists`] as [postcard](https://postcard.jamesmunns.com/wire-format).
 
 use crate::model::{Engine, Error};
 use bryant_generator::program::{FORM, Lists};
@@ -72,7 +72,8 @@ impl Engine {
     /// program: take it only from where you would take a program.
     ///
     /// # Errors
-    /// Another content, one of another version, a damaged one; a model with functions of the user, which need a compiler.
+    /// Another content, one of another version, a damaged one; a model with functions of the user, which need a
+    /// compiler.
     pub fn of_kept(content: &[u8]) -> Result<Self, KeptError> {
         match <[Self; 1]>::try_from(Self::all_of_kept(content)?) {
             Ok([engine]) => Ok(engine),

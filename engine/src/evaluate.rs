@@ -13,9 +13,11 @@ use std::cell::{OnceCell, RefCell};
 use std::ptr::from_ref;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// The machine code of a model over one scalar: of each list, once compiled; `None` where compilation was tried and there is no code.
+/// The machine code of a model over one scalar: of each list, once compiled; `None` where compilation was tried and
+/// there is no code.
 ///
-/// A list is compiled when it runs for the first time. Its code depends on the scalar and the processor alone, so all runs of an engine share it.
+/// A list is compiled when it runs for the first time. Its code depends on the scalar and the processor alone, so all
+/// runs of an engine share it.
 #[derive(Debug)]
 pub struct Codes<T> {
     sets: Sets<Option<Code<T>>>,
@@ -83,8 +85,8 @@ fn code<T: Real>(shared: &Shared, list: &List) -> Option<Code<T>> {
     })
 }
 
-/// Evaluates lists over one scalar. Numbers and registers of numbers use machine code where the processor and the system allow it; everything
-/// else uses the interpreter. Both give the same bits.
+/// Evaluates lists over one scalar. Numbers and registers of numbers use machine code where the processor and the
+/// system allow it; everything else uses the interpreter. Both give the same bits.
 #[derive(Debug)]
 pub struct Evaluator<T: Real> {
     shared: Arc<Shared>,

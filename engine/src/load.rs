@@ -51,8 +51,8 @@ impl From<KeptError> for LoadError {
 }
 
 impl Engine {
-    /// The engine of a file: YAML or URDF, with S, r_s and r_k, or an engine that was [kept](Self::keep), whose file name
-    /// ends in `.bryant`.
+    /// The engine of a file: YAML or URDF, with S, r_s and r_k, or an engine that was [kept](Self::keep), whose file
+    /// name ends in `.bryant`.
     ///
     /// # Errors
     /// All problems of the description; a force that is a function of the user, which needs a compiler; a kept engine
@@ -67,7 +67,8 @@ impl Engine {
         Self::of(&model, &Config::new())
     }
 
-    /// The engine of a text in YAML that includes no files, with S, r_s and r_k. `name` stands for the file in messages.
+    /// The engine of a text in YAML that includes no files, with S, r_s and r_k. `name` stands for the file in
+    /// messages.
     ///
     /// # Errors
     /// Those of [`Engine::load`].

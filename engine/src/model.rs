@@ -263,8 +263,8 @@ pub struct Machine<T, E> {
     jacobian: RefCell<Option<Box<dyn Jacobian<T>>>>,
 }
 
-/// Some parameters of one model, by [`Machine::varying`], which [`Machine::set_some`] sets. They are looked up once, since they may be set at
-/// each step.
+/// Some parameters of one model, by [`Machine::varying`], which [`Machine::set_some`] sets. They are looked up once,
+/// since they may be set at each step.
 #[derive(Clone, Debug, Default)]
 pub struct Varying {
     indices: Box<[usize]>,
@@ -476,8 +476,8 @@ impl<T: Real, E: Execute<T>> Machine<T, E> {
     }
 }
 
-/// The method of a section: that of the same name. A section without a method, or one in another order than the methods,
-/// does not compile.
+/// The method of a section: that of the same name. A section without a method, or one in another order than the
+/// methods, does not compile.
 const fn method_of(section: Section) -> Method {
     const METHODS: [Method; Section::ALL.len()] = {
         let mut methods = [Method::Derived; Section::ALL.len()];

@@ -27,8 +27,8 @@ impl Version {
     }
 }
 
-/// The description of an FMU with these resources. `identifier` is the name of its shared library, `about` a sentence about the
-/// model, or nothing.
+/// The description of an FMU with these resources. `identifier` is the name of its shared library, `about` a sentence
+/// about the model, or nothing.
 pub fn description(
     version: Version,
     engine: &Engine,

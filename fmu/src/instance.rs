@@ -163,7 +163,8 @@ impl Instance {
         if !(length.is_finite() && length > 0.0) {
             return Err(format!("the step has a length of {length} s"));
         }
-        // where a run with equal intervals would sample, if that differs by rounding; and the end, if rounding goes past it
+        // where a run with equal intervals would sample, if that differs by rounding; and the end, if rounding goes
+        // past it
         let sum = from + length;
         let every = self.setting.every;
         let multiple = (sum / every).round() * every;

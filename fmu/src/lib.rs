@@ -1,7 +1,7 @@
 //! Models as functional mock-up units (FMI 2.0 and 3.0, co-simulation): what an FMU contains, and an instance of one.
 //!
-//! An FMU has the model as a resource, and the shared library of `bryant-fmi`, which is the same for all models. An instance is integrated as
-//! `bryant run` does, with its error control and its events.
+//! An FMU has the model as a resource, and the shared library of `bryant-fmi`, which is the same for all models. An
+//! instance is integrated as `bryant run` does, with its error control and its events.
 //!
 //! | module | what |
 //! |---|---|

@@ -82,8 +82,8 @@ impl Setting {
     }
 }
 
-/// The token by which an importer sees that description and resources belong together: a digest of the resources, as a GUID
-/// is written.
+/// The token by which an importer sees that description and resources belong together: a digest of the resources, as a
+/// GUID is written.
 pub fn token(engine: &[u8], setting: &str) -> String {
     let digest = Sha256::new()
         .chain_update(engine)

@@ -4,8 +4,8 @@
 //! cargo run -p bryant-generated --example derivatives -- child-seat
 //! ```
 //!
-//! Each line on standard input is a request, and each line on standard output is its answer. Units are SI; numbers are written with the
-//! fewest digits that read back exactly.
+//! Each line on standard input is a request, and each line on standard output is its answer. Units are SI; numbers are
+//! written with the fewest digits that read back exactly.
 //!
 //! | request | answer |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! The bundled models, compiled: one module for each file in `models/`, written by the build script, and a table of all models.
+//! The bundled models, compiled: one module for each file in `models/`, written by the build script, and a table of all
+//! models.
 //!
 //! The entry points for `f64` are compiled here, so that crates that use them need not compile the equations again.
 
@@ -9,8 +10,8 @@ use bryant_runtime::program::Entry;
 pub struct Bundled {
     /// The compiled equations, over `f64`.
     pub entry: Entry,
-    /// Names and texts of its YAML files: the model first, then the files that it includes. Names are relative to the directory of the
-    /// model.
+    /// Names and texts of its YAML files: the model first, then the files that it includes. Names are relative to the
+    /// directory of the model.
     pub texts: &'static [(&'static str, &'static str)],
 }
 

@@ -1,4 +1,5 @@
-//! Every bundled model is there, and starts. These tests are apart from the library, which is long to compile and so is compiled once.
+//! Every bundled model is there, and starts. These tests are apart from the library, which is long to compile and so is
+//! compiled once.
 
 use bryant_generated::{MODELS, find};
 use bryant_runtime::program::RunError;

@@ -1,13 +1,14 @@
-//! The processor time from a text to the counted equations: chains of growing length, with the exponent of the growth, or given files.
+//! The processor time from a text to the counted equations: chains of growing length, with the exponent of the growth,
+//! or given files.
 //!
 //! ```text
 //! cargo bench -p bryant-generator --bench derive                        chains
 //! cargo bench -p bryant-generator --bench derive -- FILE...             models
-//! cargo bench -p bryant-generator --bench derive -- --effects FILE...   models without each of their effects, as `bryant effects --no-time`
+//! cargo bench -p bryant-generator --bench derive -- --effects FILE...   as `bryant effects --no-time FILE`
 //! ```
 //!
-//! Each line is a process of its own, because frames that were found once are kept. Beside the times are the operations of the accelerations, so that
-//! one sees what a faster search costs.
+//! Each line is a process of its own, because frames that were found once are kept. Beside the times are the operations
+//! of the accelerations, so that one sees what a faster search costs.
 
 use bryant_generator::dynamics::{self, derive_with};
 use bryant_generator::effect;
@@ -161,7 +162,8 @@ fn without_effects(scene: &AnnotatedModel) -> usize {
     variants
 }
 
-/// A chain of hinges as a URDF. Links have no symmetry. Without axes, these, the places and the orientations are irregular, too.
+/// A chain of hinges as a URDF. Links have no symmetry. Without axes, these, the places and the orientations are
+/// irregular, too.
 fn chain(links: usize, axes: &[&str]) -> String {
     // a generator of Lehmer: any numbers without a pattern will do
     let mut seed = 1u64;

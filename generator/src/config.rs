@@ -144,10 +144,10 @@ impl Config {
         self
     }
 
-    /// Asks for [functions](crate::dynamics::functions) by their names, in addition to those that were asked for before:
-    /// `["inverse_dynamics", "jacobian(arm/hand)"]`. They become methods of the mechanism, functions in C and functions of
-    /// the lists. A function that each model has in any case (`kinetic_energy`; `mass_matrix` and `applied_forces` unless
-    /// [`matrices`](Self::matrices) is false) is not written a second time in Rust and C.
+    /// Asks for [functions](crate::dynamics::functions) by their names, in addition to those that were asked for
+    /// before: `["inverse_dynamics", "jacobian(arm/hand)"]`. They become methods of the mechanism, functions in C and
+    /// functions of the lists. A function that each model has in any case (`kinetic_energy`; `mass_matrix` and
+    /// `applied_forces` unless [`matrices`](Self::matrices) is false) is not written a second time in Rust and C.
     pub fn functions<S: Into<String>>(&mut self, names: impl IntoIterator<Item = S>) -> &mut Self {
         self.functions.extend(names.into_iter().map(Into::into));
         self
@@ -156,8 +156,8 @@ impl Config {
     /// The functions that are asked for, of this model. `file` stands for the model in messages.
     ///
     /// # Errors
-    /// All functions and frames that the model does not have; functions whose derivation is not possible, because the model
-    /// has a law that cannot be differentiated in symbols.
+    /// All functions and frames that the model does not have; functions whose derivation is not possible, because the
+    /// model has a law that cannot be differentiated in symbols.
     pub fn requests(&self, model: &Model, file: &str) -> Result<Vec<Request>, Diagnostics> {
         let found = requests(model, file, self.functions.iter().map(String::as_str))?;
         let doubtful = found.iter().filter(|of| of.function().may_be_impossible());

@@ -194,8 +194,8 @@ pub struct CurveOfState {
 /// A quantity that is watched during a run: the argument of a curve, or one that is treated like it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Watched {
-    /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves), and its SI unit; "" for a
-    /// pure number, and in [facts](crate::program::Watched), which have the unit themselves.
+    /// The argument of a curve, by its index in [`Model::curves`](crate::model::Model::curves), and its SI unit; "" for
+    /// a pure number, and in [facts](crate::program::Watched), which have the unit themselves.
     Curve(usize, #[serde(skip)] &'static str),
     /// The side to which a joint is bent, as an angle.
     Bearing,

@@ -73,7 +73,8 @@ impl ModelText {
     }
 }
 
-/// The text of a model: a YAML file, or what a URDF file is as YAML. A file is URDF by its content, XML, or by its name, `.urdf`.
+/// The text of a model: a YAML file, or what a URDF file is as YAML. A file is URDF by its content, XML, or by its
+/// name, `.urdf`.
 ///
 /// # Errors
 /// A file that cannot be read; every problem of a URDF file.

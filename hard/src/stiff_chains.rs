@@ -419,8 +419,8 @@ fn errors(
 }
 
 /// Repeats a run as the command does to keep its promise for outputs: the tolerance is divided by ten until two
-/// successive runs agree within `PROMISED`. Returns whether more than the first comparison was needed, and the run that is
-/// delivered.
+/// successive runs agree within `PROMISED`. Returns whether more than the first comparison was needed, and the run that
+/// is delivered.
 ///
 /// At the default tolerances a step has an error of 10⁻⁷ m/s in a speed, so the acceleration of an oscillation of
 /// frequency ω has an error of ω 10⁻⁷ m/s. In a chain with small loads this exceeds the promise.

@@ -132,8 +132,8 @@ mod tests {
     use super::*;
     use bryant_runtime::DoubleDouble;
 
-    /// Hilbert's matrix of order 6: the sum of the absolute values of a row of its inverse is at most 1.19e7 (Todd 1961: κ∞ = 29 070 279),
-    /// and its factors can be solved without scaling.
+    /// Hilbert's matrix of order 6: the sum of the absolute values of a row of its inverse is at most 1.19e7 (Todd
+    /// 1961: κ∞ = 29 070 279), and its factors can be solved without scaling.
     #[test]
     fn hilbert_matrix_is_solved_in_double_double() {
         let one = <DoubleDouble as Real>::from_f64(1.0);

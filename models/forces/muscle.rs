@@ -5,8 +5,8 @@
 //! a is the activation, which follows the excitation u with a delay: a state of the force.
 //!
 //! F. E. Zajac: Muscle and tendon: properties, models, scaling, and application to biomechanics and motor control.
-//! Critical Reviews in Biomedical Engineering 17, 1989. — D. G. Thelen: Adjustment of muscle mechanics model parameters to
-//! simulate dynamic contractions in older adults. Journal of Biomechanical Engineering 125, 2003, whose shapes and
+//! Critical Reviews in Biomedical Engineering 17, 1989. — D. G. Thelen: Adjustment of muscle mechanics model parameters
+//! to simulate dynamic contractions in older adults. Journal of Biomechanical Engineering 125, 2003, whose shapes and
 //! constants for young adults are used here.
 
 /// The tension in the muscle, and the rate of its activation.

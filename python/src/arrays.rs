@@ -60,8 +60,8 @@ impl Array {
         }
     }
 
-    /// An array of numpy, without gaps and of doubles, by its fields: the buffers of four arrays would take longer than the
-    /// accelerations of a robot. `None` for all others.
+    /// An array of numpy, without gaps and of doubles, by its fields: the buffers of four arrays would take longer than
+    /// the accelerations of a robot. `None` for all others.
     fn direct(value: &Bound<'_, PyAny>) -> PyResult<Option<Self>> {
         let numpy = numpy(value.py())?;
         // SAFETY: an object has a type, and one of this very type has the fields, as `numpy` has seen.
@@ -99,8 +99,8 @@ impl Array {
     pub fn numbers(&self) -> &[f64] {
         match self.shape().iter().product() {
             0 => &[],
-            // SAFETY: the array has no gaps and that many doubles, and is held. Python code that writes to an array while
-            // a function reads it gets numbers that are its own fault, as with numpy; none of them is invalid.
+            // SAFETY: the array has no gaps and that many doubles, and is held. Python code that writes to an array
+            // while a function reads it gets numbers that are its own fault, as with numpy; none of them is invalid.
             count => unsafe { std::slice::from_raw_parts(self.numbers, count) },
         }
     }
@@ -130,8 +130,8 @@ impl Array {
     }
 }
 
-/// A buffer of doubles of this processor. PyO3 also takes those whose bytes are in the other order, and would read them as other
-/// numbers.
+/// A buffer of doubles of this processor. PyO3 also takes those whose bytes are in the other order, and would read them
+/// as other numbers.
 fn doubles(value: &Bound<'_, PyAny>) -> PyResult<PyBuffer<f64>> {
     let buffer = PyBuffer::<f64>::get(value)?;
     let turned: &[u8] = match cfg!(target_endian = "little") {
@@ -210,7 +210,8 @@ impl<'py> Filled<'py> {
     }
 }
 
-/// The beginning of `PyArrayObject_fields`, which numpy's C interface has had since version 1.7, and keeps in version 2.
+/// The beginning of `PyArrayObject_fields`, which numpy's C interface has had since version 1.7, and keeps in
+/// version 2.
 #[repr(C)]
 struct Fields {
     head: ffi::PyObject,

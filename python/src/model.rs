@@ -15,8 +15,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// The ending of files with derived equations.
 const KEPT: &str = ".bryant";
 
-/// Number of rows from which other threads of Python may run meanwhile. For fewer, waiting for them would take longer than
-/// the rows do.
+/// Number of rows from which other threads of Python may run meanwhile. For fewer, waiting for them would take longer
+/// than the rows do.
 const MANY: usize = 8;
 
 /// The equations of a model as machine code.
@@ -227,9 +227,9 @@ impl Model {
         })
     }
 
-    /// Accelerations v̇ at one state (n,) or at many (states, n). u: the inputs of the model, or the parameters that `vary`
-    /// names, for each. states: z and m of force laws, where the model has any; as at the start of a run if left out.
-    /// out: an array for the results. threads: a number of threads.
+    /// Accelerations v̇ at one state (n,) or at many (states, n). u: the inputs of the model, or the parameters that
+    /// `vary` names, for each. states: z and m of force laws, where the model has any; as at the start of a run if left
+    /// out. out: an array for the results. threads: a number of threads.
     #[pyo3(signature = (q, v, u=None, states=None, t=0.0, vary=None, out=None, threads=1))]
     #[expect(clippy::too_many_arguments, reason = "those of a function of Python")]
     fn accelerations<'py>(
@@ -248,8 +248,8 @@ impl Model {
         self.evaluate(py, what, q, Some(v), u, states, t, vary, out, threads, None)
     }
 
-    /// Evaluates `what` at rows of states: see `accelerations`. `what` is a section, or a function that is derived when it
-    /// is asked for first; a: accelerations that functions need.
+    /// Evaluates `what` at rows of states: see `accelerations`. `what` is a section, or a function that is derived when
+    /// it is asked for first; a: accelerations that functions need.
     #[pyo3(signature = (what, q, v, u=None, states=None, t=0.0, vary=None, out=None, threads=1, a=None))]
     #[expect(clippy::too_many_arguments, reason = "those of a function of Python")]
     fn evaluate<'py>(

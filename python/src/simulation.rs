@@ -1,4 +1,5 @@
-//! A run with error control that is driven from outside: it is advanced from time to time, and its inputs change between.
+//! A run with error control that is driven from outside: it is advanced from time to time, and its inputs change
+//! between.
 
 use crate::arrays::{Array, Filled};
 use crate::model::Model;

@@ -234,8 +234,8 @@ enabled! {
     KinkAfter { t: f64 } -> T, |model| model.kink_after(t);
 }
 
-/// Writes a section of a generated model, compiled for the instructions that the scalar needs. No section that the model
-/// does not have is compiled, and each is a function of its own, so that none pays for the registers of another.
+/// Writes a section of a generated model, compiled for the instructions that the scalar needs. No section that the
+/// model does not have is compiled, and each is a function of its own, so that none pays for the registers of another.
 macro_rules! dispatched {
     ($($(#[$doc:meta])* $section:ident $name:ident $form:ident |$info:ident| $length:expr;)*) => {
         fn write_section<T: Real, M: Model<T>>(

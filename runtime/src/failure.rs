@@ -4,8 +4,8 @@ use crate::simulate::OutOfRange;
 use crate::{Cause, Dynamics, Extrapolate, Formula, Info, Real};
 use core::fmt;
 
-/// A run that could not go on. All samples before [`Failure::t`] were delivered. Its names are those of the model of the
-/// run, which it borrows.
+/// A run that could not go on. All samples before [`Failure::t`] were delivered. Its names are those of the model of
+/// the run, which it borrows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Failure<'a> {
     /// Time of the failure \[s\].

@@ -331,7 +331,8 @@ mod tests {
         })
     }
 
-    /// Against an independent program (objective-rating-metrics 1.3, of TU Graz): corridor, phase, magnitude, slope, overall.
+    /// Against an independent program (objective-rating-metrics 1.3, of TU Graz): corridor, phase, magnitude, slope,
+    /// overall.
     #[test]
     fn ratings_are_those_of_another_program() {
         let sine = samples(1500, |t| (20.0 * t).sin());
@@ -399,7 +400,8 @@ mod tests {
         }
     }
 
-    /// Every signal beside itself rates 1, whatever its shape, size and offset, also where it correlates equally well at other shifts.
+    /// Every signal beside itself rates 1, whatever its shape, size and offset, also where it correlates equally well
+    /// at other shifts.
     #[test]
     fn a_signal_beside_itself_rates_one() {
         let mut all: Vec<(String, Vec<f64>)> = Vec::new();

@@ -33,8 +33,8 @@ pub struct Comparison<'a> {
 }
 
 impl<'a> Comparison<'a> {
-    /// Compares runs of `job`, of which the first one had these responses. Responses of signals that have fallen below a
-    /// hundredth of their size in that run do not count; without responses all count.
+    /// Compares runs of `job`, of which the first one had these responses. Responses of signals that have fallen below
+    /// a hundredth of their size in that run do not count; without responses all count.
     pub fn of(model: &'a dyn Runs, job: &'a Job, first: &[Answer]) -> Self {
         Comparison {
             model,
@@ -76,9 +76,9 @@ impl<'a> Comparison<'a> {
         }
     }
 
-    /// The difference of two runs. Not counted are outputs that never exceed their floors, and responses of signals that
-    /// are noise, that have fallen below a hundredth of their size in the first run, or that are a single output that
-    /// never exceeds its floor.
+    /// The difference of two runs. Not counted are outputs that never exceed their floors, and responses of signals
+    /// that are noise, that have fallen below a hundredth of their size in the first run, or that are a single output
+    /// that never exceeds its floor.
     fn beyond_floors(&self, [coarse, sharp]: [&Recording; 2]) -> Difference {
         let asked = &self.job.reading.asked;
         let unit = |asked: &Asked| {

@@ -3,8 +3,8 @@
 //! A study has series of settings that differ only in their step or tolerance, from coarse to fine. A free processor
 //! takes the next setting of a series. The coarse end of the default method comes first: it is what a user has without
 //! a study. Then come series without an error below 100 % so far; then the series whose last point is nearest to the
-//! front of accuracy against time; of several, the one with the fewest points. So a study that ends early has the front,
-//! and lacks points far from it.
+//! front of accuracy against time; of several, the one with the fewest points. So a study that ends early has the
+//! front, and lacks points far from it.
 
 use super::front::Cost;
 use super::plan::Series;

@@ -2,11 +2,11 @@
 //!
 //! The error is that of the printed numbers: for each output, the largest difference over all samples, relative to the
 //! output's largest magnitude in the run. The first run has the tolerance τ: the wanted accuracy, but at most 10⁻⁵. It
-//! is compared with one at τ/10, this one with one at τ/100, and so on. The sharpest run is the result, and its difference from the run before is the estimate of its
-//! error. If the error is proportional to the tolerance, the true error of the result is a ninth of the estimate. This
-//! margin is for kinks and friction, with which errors decrease unevenly. A difference may be small by accident: across
-//! a kink of a force the error decreases at least like the root of the tolerance. So an estimate is never less than the
-//! one before over √10, and there always is one before.
+//! is compared with one at τ/10, this one with one at τ/100, and so on. The sharpest run is the result, and its
+//! difference from the run before is the estimate of its error. If the error is proportional to the tolerance, the true
+//! error of the result is a ninth of the estimate. This margin is for kinks and friction, with which errors decrease
+//! unevenly. A difference may be small by accident: across a kink of a force the error decreases at least like the root
+//! of the tolerance. So an estimate is never less than the one before over √10, and there always is one before.
 //!
 //! The method is chosen by the diagrams of `bryant accuracy` for the bundled models: Tsitouras 5(4) is on the front
 //! down to about 1e-7, Dormand–Prince 8(5,3) with kinks located below. Where the scene is stiff, both change to the

@@ -199,7 +199,8 @@ impl<'a> File<'a> {
         mesh
     }
 
-    /// Adds keyframes of a node at all times. The first is also where the node rests: what shows the file without playing it shows the start.
+    /// Adds keyframes of a node at all times. The first is also where the node rests: what shows the file without
+    /// playing it shows the start.
     pub fn key(&mut self, node: usize, path: &str, values: &[f64], width: usize) {
         debug_assert_eq!(values.len(), width * self.scene.times.len());
         self.list("nodes")[node][path] = json!(values[..width]);

@@ -32,7 +32,8 @@ pub fn along(from: Vec3, to: Vec3) -> (Quaternion, f64) {
     }
 }
 
-/// Unit quaternions with the sign, q or −q, that is closer to the one before: players interpolate along the shorter way.
+/// Unit quaternions with the sign, q or −q, that is closer to the one before: players interpolate along the shorter
+/// way.
 pub fn continuous(turns: impl IntoIterator<Item = Quaternion>) -> Vec<Quaternion> {
     let mut all: Vec<Quaternion> = Vec::new();
     for turn in turns {

@@ -77,7 +77,8 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     budget: Option<f64>,
 
-    /// Error that the summary sentence and the diagram show: `state`, `worst` of all readings, or the name of an output [default: worst]
+    /// Error that the summary sentence and the diagram show: `state`, `worst` of all readings, or the name of an output
+    /// [default: worst]
     #[arg(long, value_name = "OUTPUT")]
     of: Option<String>,
 
@@ -105,7 +106,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the diagram, may be repeated; - prints SVG instead of the table [default: MODEL-accuracy.svg and MODEL-accuracy.png]
+    /// File of the diagram, may be repeated; - prints SVG instead of the table [default: MODEL-accuracy.svg and
+    /// MODEL-accuracy.png]
     #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Vec<PathBuf>,
 
@@ -396,7 +398,8 @@ impl Arguments {
     }
 }
 
-/// The link of a picture in a page: relative to the directory of the page if both paths are absolute or both are relative.
+/// The link of a picture in a page: relative to the directory of the page if both paths are absolute or both are
+/// relative.
 pub fn link(page: &Path, picture: &Path) -> String {
     let text = |path: &Path| path.to_string_lossy().replace('\\', "/");
     let directory = page.parent().unwrap_or(Path::new(""));

@@ -80,7 +80,8 @@ struct Fmu {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     every: Option<f64>,
 
-    /// Shared library that the FMU carries, one for each platform; may be repeated [default: the one beside this program]
+    /// Shared library that the FMU carries, one for each platform; may be repeated [default: the one beside this
+    /// program]
     #[arg(long, value_name = "FILE")]
     library: Vec<PathBuf>,
 

@@ -33,7 +33,8 @@ use std::cell::Cell;
 use std::time::Duration;
 use table::{AGREE, Table};
 
-/// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events included.
+/// Differentiate responses of a run with respect to parameters: by dual numbers through the whole simulation, events
+/// included.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = "\
 A response is WHAT of OUTPUT, as in a study: peak, minimum, magnitude, time of peak, time of minimum, range, mean, final, HIC15, HIC36,
@@ -83,7 +84,8 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
 
-    /// Time between the samples that responses are read off [default: a twentieth of the time between the rows of the model]
+    /// Time between the samples that responses are read off [default: a twentieth of the time between the rows of the
+    /// model]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
@@ -91,7 +93,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
-    /// Give up when the computation of a run takes longer than this, or would take ten times as long at its present rate; a time, or off [default: 5 min]
+    /// Give up when the computation of a run takes longer than this, or would take ten times as long at its present
+    /// rate; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 

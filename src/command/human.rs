@@ -37,8 +37,9 @@ pub struct Arguments {
     #[arg(long, value_name = "NUMBER", conflicts_with_all = ["stature", "mass"], requires = "sex")]
     percentile: Option<f64>,
 
-    /// A usual size, in place of sex, stature and mass: a man of 1.753 m and 77.7 kg, one of 1.877 m and 101.2 kg, a woman of 1.501 m and
-    /// 49 kg (adults with the masses of the Hybrid III dummies); children of six and of three years like the Hybrid III
+    /// A usual size, in place of sex, stature and mass: a man of 1.753 m and 77.7 kg, one of 1.877 m and 101.2 kg, a
+    /// woman of 1.501 m and 49 kg (adults with the masses of the Hybrid III dummies); children of six and of three
+    /// years like the Hybrid III
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(NAMES), conflicts_with_all = ["sex", "stature", "mass", "percentile"])]
     like: Option<String>,
 
@@ -50,7 +51,8 @@ pub struct Arguments {
     #[arg(long, value_enum, default_value_t = PostureName::Standing)]
     posture: PostureName,
 
-    /// Angle about y, of both sides, that replaces that of the posture: trunk, head, upper_arms, forearms, hands, thighs, shanks or feet
+    /// Angle about y, of both sides, that replaces that of the posture: trunk, head, upper_arms, forearms, hands,
+    /// thighs, shanks or feet
     #[arg(long = "angle", value_name = "NAME=ANGLE", allow_hyphen_values = true)]
     angles: Vec<String>,
 

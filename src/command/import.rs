@@ -53,7 +53,8 @@ pub struct Arguments {
     #[arg(long)]
     uncouple: bool,
 
-    /// Leave the joints without motors. Otherwise each has one whose torque or force is an input, within its limit of effort
+    /// Leave the joints without motors. Otherwise each has one whose torque or force is an input, within its limit of
+    /// effort
     #[arg(long)]
     no_inputs: bool,
 

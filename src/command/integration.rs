@@ -18,12 +18,13 @@ pub struct Integration {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     step: Option<f64>,
 
-    /// Relative error allowed in a step; positions (m) and angles (rad) may err by a tenth of it, whatever their size [default: 1e-7]
+    /// Relative error allowed in a step; positions (m) and angles (rad) may err by a tenth of it, whatever their size
+    /// [default: 1e-7]
     #[arg(long, value_name = "NUMBER", value_parser = quantity::tolerance, allow_hyphen_values = true, conflicts_with = "step")]
     tolerance: Option<f64>,
 
-    /// What steps do at kinks of force laws, where a contact touches or a curve bends: `located` ends steps there, `passed` steps over
-    /// them; locating pays at tolerances below about 1e-8
+    /// What steps do at kinks of force laws, where a contact touches or a curve bends: `located` ends steps there,
+    /// `passed` steps over them; locating pays at tolerances below about 1e-8
     #[arg(long, value_name = "HOW", default_value = "passed", value_parser = PossibleValuesParser::new(["located", "passed"]))]
     kinks: String,
 }

@@ -61,7 +61,8 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 
-    /// Write a report: one page of HTML in which the mechanism moves in each of its modes; any browser shows it, without a network
+    /// Write a report: one page of HTML in which the mechanism moves in each of its modes; any browser shows it,
+    /// without a network
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
@@ -92,7 +93,8 @@ const MASS_MATRIX: &str = "mass_matrix";
 /// A mode with what people read.
 struct Shown<'a> {
     mode: &'a Mode,
-    /// Shares of the kinetic energy, largest first, by velocity; for a mode without motion, sizes of states of force laws.
+    /// Shares of the kinetic energy, largest first, by velocity; for a mode without motion, sizes of states of force
+    /// laws.
     shares: Vec<(&'a str, f64)>,
     /// True if it cannot be told from one that does not move.
     free: bool,
@@ -313,7 +315,8 @@ fn as_json(model: &str, t: f64, hidden: f64, names: &[String], shown: &[Shown<'_
     json!({ "model": model, "t_s": t, "free_below_Hz": hidden / TAU, "modes": modes })
 }
 
-/// What the shapes have entries for: coordinates along the motion of their velocities, velocities, states of force laws.
+/// What the shapes have entries for: coordinates along the motion of their velocities, velocities, states of force
+/// laws.
 fn names(info: &Info) -> Vec<String> {
     let along = info.velocities.iter().map(|name| format!("along {name}"));
     let by = info.velocities.iter().chain(info.auxiliaries);
@@ -338,9 +341,9 @@ fn modes_at(
     })
 }
 
-/// A of ẋ = A x about a state in which nothing turns, by rows, and its size. x has the coordinates along the motion of each
-/// velocity, the velocities, and the states of force laws: δq = G ξ, where q̇ = G v. G is constant there, so ξ̇ = δv; the other
-/// rows are those of the Jacobian of ẏ, by dual numbers.
+/// A of ẋ = A x about a state in which nothing turns, by rows, and its size. x has the coordinates along the motion of
+/// each velocity, the velocities, and the states of force laws: δq = G ξ, where q̇ = G v. G is constant there, so ξ̇ =
+/// δv; the other rows are those of the Jacobian of ẏ, by dual numbers.
 fn linear(model: &Evaluated<f64>, t: f64, state: &[f64]) -> (Vec<f64>, usize) {
     let info = model.info();
     let (coordinates, count) = (info.coordinates.len(), info.velocities.len());
@@ -373,8 +376,8 @@ fn linear(model: &Evaluated<f64>, t: f64, state: &[f64]) -> (Vec<f64>, usize) {
     (a, size)
 }
 
-/// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for each; a
-/// share that is negative by them counts by its size.
+/// The shares of the kinetic energy by velocity, largest first. Entries of S between two velocities count by half for
+/// each; a share that is negative by them counts by its size.
 fn shares<'a>(mode: &Mode, mass: &[f64], info: &'a Info) -> Vec<(&'a str, f64)> {
     let count = info.velocities.len();
     let (along, rest) = mode.shape.split_at(count);

@@ -86,8 +86,8 @@ pub struct Arguments {
     #[command(flatten)]
     integration: Integration,
 
-    /// Accuracy of every output, relative to its largest magnitude (1%, 1e-3): the program chooses the method, sharpens the tolerance until
-    /// runs agree, and prints the estimated error
+    /// Accuracy of every output, relative to its largest magnitude (1%, 1e-3): the program chooses the method, sharpens
+    /// the tolerance until runs agree, and prints the estimated error
     #[arg(long, value_name = "ERROR", value_parser = accuracy, allow_hyphen_values = true, conflicts_with_all = ["method", "step", "tolerance", "kinks"])]
     accuracy: Option<f64>,
 
@@ -95,13 +95,13 @@ pub struct Arguments {
     #[arg(long)]
     verify: bool,
 
-    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. If outputs or responses differ
-    /// by more than 0.1 %, the run is repeated at a smaller tolerance
+    /// Leave out the check that every run gets: a second run by another method at a tenth of the tolerance. If outputs
+    /// or responses differ by more than 0.1 %, the run is repeated at a smaller tolerance
     #[arg(long, conflicts_with = "verify")]
     no_verify: bool,
 
-    /// What evaluates the equations: built-in is machine code or an interpreter of this program; rustc compiles the generated Rust of the
-    /// whole model with optimisation, which takes seconds to minutes and is meant for comparisons
+    /// What evaluates the equations: built-in is machine code or an interpreter of this program; rustc compiles the
+    /// generated Rust of the whole model with optimisation, which takes seconds to minutes and is meant for comparisons
     #[arg(long, value_name = "NAME", default_value = BUILT_IN, value_parser = PossibleValuesParser::new([BUILT_IN, RUSTC]))]
     engine: String,
 
@@ -109,12 +109,13 @@ pub struct Arguments {
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     duration: Option<f64>,
 
-    /// Begin with the state in this file, which --final-state wrote, and at its time. Entries are found by name, so that the model may be
-    /// another one with the same coordinates
+    /// Begin with the state in this file, which --final-state wrote, and at its time. Entries are found by name, so
+    /// that the model may be another one with the same coordinates
     #[arg(long, value_name = "STATE.json")]
     start: Option<PathBuf>,
 
-    /// Write the state of the last sample, by name, to begin another run with it; - prints it instead of the readable table
+    /// Write the state of the last sample, by name, to begin another run with it; - prints it instead of the readable
+    /// table
     #[arg(long, value_name = "STATE.json")]
     final_state: Option<PathBuf>,
 
@@ -126,13 +127,14 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<String>,
 
-    /// File that an input of the model follows over time: a table whose first column is the time, or a test in ISO-MME. It is the column
-    /// with the name of the input, or the only one; others are named as 'torque=measured.csv, COLUMN'. Values go in straight lines from
-    /// row to row; may be repeated
+    /// File that an input of the model follows over time: a table whose first column is the time, or a test in ISO-MME.
+    /// It is the column with the name of the input, or the only one; others are named as 'torque=measured.csv, COLUMN'.
+    /// Values go in straight lines from row to row; may be repeated
     #[arg(long, value_name = "NAME=FILE", value_parser = inputs::input_file)]
     input: Vec<inputs::InputFile>,
 
-    /// Give up when the computation takes longer than this, or would take ten times as long at its present rate; a time, or off [default: 5 min]
+    /// Give up when the computation takes longer than this, or would take ten times as long at its present rate; a
+    /// time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
@@ -140,8 +142,8 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(1..))]
     max_steps: Option<u64>,
 
-    /// Share of energy and momentum that may be missing in their balances, or off. If more is missing, the run cannot be trusted
-    /// [default: 2%]
+    /// Share of energy and momentum that may be missing in their balances, or off. If more is missing, the run cannot
+    /// be trusted [default: 2%]
     #[arg(long, value_name = "SHARE", value_parser = energy_limit, allow_hyphen_values = true)]
     energy_limit: Option<f64>,
 
@@ -153,8 +155,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
 
-    /// File of the picture, SVG or PNG by the ending of its name; - prints SVG instead of the readable table [default: MODEL.svg, or
-    /// MODEL.png with --pictures png]
+    /// File of the picture, SVG or PNG by the ending of its name; - prints SVG instead of the readable table [default:
+    /// MODEL.svg, or MODEL.png with --pictures png]
     #[arg(long, value_name = "FILE.svg|.png", value_parser = outputs::picture)]
     picture: Option<PathBuf>,
 
@@ -162,12 +164,13 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
-    /// Write a report: one page of HTML with the motion, the curves and the messages of the run; any browser shows it, without a network
+    /// Write a report: one page of HTML with the motion, the curves and the messages of the run; any browser shows it,
+    /// without a network
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
 
-    /// Recording whose curves the report shows beside those of the run: a test in ISO-MME, or a CSV table of `bryant run`. Its channels are
-    /// found by name or code, or by --channel
+    /// Recording whose curves the report shows beside those of the run: a test in ISO-MME, or a CSV table of `bryant
+    /// run`. Its channels are found by name or code, or by --channel
     #[arg(long, value_name = "RECORDING", requires = "report")]
     measured: Option<PathBuf>,
 
@@ -175,8 +178,8 @@ pub struct Arguments {
     #[arg(long, value_name = "OUTPUT=CHANNEL", value_parser = pair, requires = "measured")]
     channel: Vec<(String, String)>,
 
-    /// Parameter of a second run, which the report shows on top of the first, in grey and in dashes; may be repeated, for several
-    /// parameters of that run
+    /// Parameter of a second run, which the report shows on top of the first, in grey and in dashes; may be repeated,
+    /// for several parameters of that run
     #[arg(long, value_name = "NAME=VALUE", requires = "report")]
     beside: Vec<String>,
 
@@ -188,12 +191,13 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE.glb")]
     animation: Option<PathBuf>,
 
-    /// Write all outputs as channels of ISO-MME (ISO/TS 13499) into this folder: MODEL.mme, and a folder Channel. Outputs with a `code` in the model have
-    /// that channel code
+    /// Write all outputs as channels of ISO-MME (ISO/TS 13499) into this folder: MODEL.mme, and a folder Channel.
+    /// Outputs with a `code` in the model have that channel code
     #[arg(long, value_name = "FOLDER")]
     mme: Option<PathBuf>,
 
-    /// Write only the files that are named by --csv, --parquet, --picture, --report, --animation, --mme and --final-state
+    /// Write only the files that are named by --csv, --parquet, --picture, --report, --animation, --mme
+    /// and --final-state
     #[arg(long)]
     no_files: bool,
 
@@ -201,8 +205,8 @@ pub struct Arguments {
     #[arg(long, value_name = "'NAMES over NAME'", allow_hyphen_values = true)]
     plot: Vec<String>,
 
-    /// Box that a curve of a plot over time should pass through, as 'rotation: 57 ms to 64 ms, 64 deg to 78 deg'; `any` leaves a side open;
-    /// may be repeated
+    /// Box that a curve of a plot over time should pass through, as 'rotation: 57 ms to 64 ms, 64 deg to 78 deg'; `any`
+    /// leaves a side open; may be repeated
     #[arg(
         long,
         value_name = "'NAME: TIME to TIME, VALUE to VALUE'",
@@ -211,8 +215,8 @@ pub struct Arguments {
     corridor: Vec<String>,
 
     /// Response that is read off the run, as WHAT of OUTPUT: 'HIC15 of head accelerometer', '3 ms clip of chest
-    /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Some words of an output's name suffice. May be
-    /// repeated
+    /// acceleration', 'time of peak of belt force', 'value at 80 ms of head excursion'. Some words of an output's name
+    /// suffice. May be repeated
     #[arg(
         long,
         short = 'r',
@@ -225,14 +229,14 @@ pub struct Arguments {
     #[arg(long, value_name = "STUDY.yaml")]
     responses: Option<PathBuf>,
 
-    /// Time between the samples that responses are read off, which do not depend on the rows of the table [default: as the study of
-    /// --responses says, or a twentieth of the time between the model's rows]
+    /// Time between the samples that responses are read off, which do not depend on the rows of the table [default: as
+    /// the study of --responses says, or a twentieth of the time between the model's rows]
     #[arg(long, value_name = "TIME", value_parser = quantity::time, allow_hyphen_values = true)]
     sampling: Option<f64>,
 
-    /// Judge the run by the injury criteria of a regulation for a dummy: 'FMVSS 208, Hybrid III 50M'; `bryant criteria --list` lists them.
-    /// Outputs with a `code` of ISO-MME are found by it, others are named by --place. For this the run is sampled at 10 kHz, whatever the
-    /// table shows
+    /// Judge the run by the injury criteria of a regulation for a dummy: 'FMVSS 208, Hybrid III 50M'; `bryant
+    /// criteria --list` lists them. Outputs with a `code` of ISO-MME are found by it, others are named by --place. For
+    /// this the run is sampled at 10 kHz, whatever the table shows
     #[arg(long, value_name = "'REGULATION, DUMMY'", value_parser = standard_and_dummy)]
     criteria: Option<(String, String)>,
 
@@ -252,8 +256,8 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", default_value_t = 7, value_parser = clap::value_parser!(u16).range(1..=100))]
     figures: u16,
 
-    /// Direction from which the picture shows a model in space: side, from the right; front; top, from above; oblique, from the right, the
-    /// front and above [default: side, unless the motion is larger from the front or from above]
+    /// Direction from which the picture shows a model in space: side, from the right; front; top, from above; oblique,
+    /// from the right, the front and above [default: side, unless the motion is larger from the front or from above]
     #[arg(long, value_name = "VIEW", value_parser = view())]
     view: Option<View>,
 
@@ -273,8 +277,9 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 
-    /// Units in which outputs and responses are shown and written: SI, or engineering (mm, g, kN, °, kPa, ms). An output with a unit of its own keeps it. Files of
-    /// ISO-MME and criteria have the units of their standards [default: as the model says]
+    /// Units in which outputs and responses are shown and written: SI, or engineering (mm, g, kN, °, kPa, ms). An
+    /// output with a unit of its own keeps it. Files of ISO-MME and criteria have the units of their standards
+    /// [default: as the model says]
     #[arg(long, value_name = "SYSTEM", value_parser = units::system())]
     units: Option<UnitSystem>,
 

@@ -54,7 +54,8 @@ pub struct Arguments {
     #[arg(long, value_name = "SHARE", default_value_t = 1e-3, value_parser = share, allow_hyphen_values = true)]
     residual: f64,
 
-    /// How far the root of a free system may rest from where it starts, by its centre of gravity: who sits nearly right is moved by centimetres, and who slides off by metres
+    /// How far the root of a free system may rest from where it starts, by its centre of gravity: who sits nearly right
+    /// is moved by centimetres, and who slides off by metres
     #[arg(long, value_name = "LENGTH", default_value = "0.3 m", value_parser = distance, allow_hyphen_values = true)]
     distance: f64,
 

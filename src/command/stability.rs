@@ -37,7 +37,8 @@ pub struct Arguments {
     #[arg(long)]
     list: bool,
 
-    /// Write a page with a line for each group, and a page for each group into the folder FILE; - prints all of them instead of the table
+    /// Write a page with a line for each group, and a page for each group into the folder FILE; - prints all of them
+    /// instead of the table
     #[arg(long, value_name = "FILE.md")]
     markdown: Option<PathBuf>,
 

@@ -70,8 +70,9 @@ pub struct Arguments {
     #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
 
-    /// Number of runs side by side in a register: 8 (AVX-512), 4 (AVX2), 2 (64-bit ARM), 1, or plain, which is 1 without fused multiply-adds. In
-    /// single precision 8, 4 and 2 stand for twice as many. All but plain give the same results [default: the most that the processor has]
+    /// Number of runs side by side in a register: 8 (AVX-512), 4 (AVX2), 2 (64-bit ARM), 1, or plain, which is 1
+    /// without fused multiply-adds. In single precision 8, 4 and 2 stand for twice as many. All but plain give the same
+    /// results [default: the most that the processor has]
     #[arg(long, value_name = "LANES", value_parser = lanes)]
     lanes: Option<Width>,
 
@@ -83,8 +84,8 @@ pub struct Arguments {
     #[arg(long)]
     no_estimate: bool,
 
-    /// Give up a run when its computation takes longer than this, or would take ten times as long at its present rate. The run then ends as
-    /// `slow`, and the study goes on; a time, or off [default: 5 min]
+    /// Give up a run when its computation takes longer than this, or would take ten times as long at its present rate.
+    /// The run then ends as `slow`, and the study goes on; a time, or off [default: 5 min]
     #[arg(long, value_name = "TIME", value_parser = time_limit, allow_hyphen_values = true)]
     time_limit: Option<f64>,
 
@@ -92,8 +93,8 @@ pub struct Arguments {
     #[arg(long, value_name = "FORMAT", default_value = "svg", value_parser = outputs::format())]
     pictures: Format,
 
-    /// Write a report: one page of HTML with the distributions, the parameters that they depend on, and a table of runs to select and sort;
-    /// any browser shows it, without a network
+    /// Write a report: one page of HTML with the distributions, the parameters that they depend on, and a table of runs
+    /// to select and sort; any browser shows it, without a network
     #[arg(long, value_name = "FILE.html", conflicts_with_all = ["shard", "plan"])]
     report: Option<PathBuf>,
 

@@ -211,8 +211,8 @@ fn message_width() -> Option<usize> {
     Some(usize::from(width.0).max(NARROWEST))
 }
 
-/// The text with lines of at most `width` characters. A line that is too long is broken between words; what follows hangs below its beginning, two
-/// characters further in. Lines that fit stay as they are.
+/// The text with lines of at most `width` characters. A line that is too long is broken between words; what follows
+/// hangs below its beginning, two characters further in. Lines that fit stay as they are.
 pub fn fitted(text: &str, width: usize) -> String {
     let mut lines = Vec::new();
     for line in text.lines() {

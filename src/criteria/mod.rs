@@ -22,8 +22,8 @@ pub struct Verdict {
     pub limits: Limits,
     /// Test object and position of the occupant; `None` if no channel code names an occupant.
     pub occupant: Option<String>,
-    /// Channels of the occupant that are not used, because their files cast doubt on them, with the reasons, and damaged
-    /// channels that are not needed.
+    /// Channels of the occupant that are not used, because their files cast doubt on them, with the reasons, and
+    /// damaged channels that are not needed.
     pub left_out: Vec<String>,
     /// The criteria, in their order.
     pub rows: Vec<Row>,
@@ -33,8 +33,8 @@ pub struct Verdict {
 pub struct Row {
     /// The criterion.
     pub criterion: &'static Criterion,
-    /// Its limit, in the criterion's unit; `None` if it has no limit. Of a limit that falls with the duration of a load,
-    /// the one for `duration`.
+    /// Its limit, in the criterion's unit; `None` if it has no limit. Of a limit that falls with the duration of a
+    /// load, the one for `duration`.
     pub limit: Option<f64>,
     /// Its value, in the criterion's unit; or the reason why there is none.
     pub value: Result<f64, Missing>,

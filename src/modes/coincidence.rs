@@ -1,18 +1,20 @@
 //! Shapes where rates coincide: they are any basis of a subspace.
 //!
-//! The basis that is chosen is orthogonal in the mass matrix. Its first shape is the one in which a single velocity has the largest share of the
-//! kinetic energy; the second is chosen in the same way from what is orthogonal to the first, and so on. It depends on the subspace alone.
+//! The basis that is chosen is orthogonal in the mass matrix. Its first shape is the one in which a single velocity has
+//! the largest share of the kinetic energy; the second is chosen in the same way from what is orthogonal to the first,
+//! and so on. It depends on the subspace alone.
 
 use super::{COINCIDE, Mode, Number, hidden, scale};
 
-/// Vectors are dependent in the mass matrix if less than this share of one is left beside the others: shapes have about half of the digits where
-/// rates coincide.
+/// Vectors are dependent in the mass matrix if less than this share of one is left beside the others: shapes have about
+/// half of the digits where rates coincide.
 const DEPENDENT: f64 = 1e-4;
 
 /// A basis of a subspace is taken if its residual is below this, or no worse than before: then rates did coincide.
 const COINCIDED: f64 = 1e-10;
 
-/// Where rates coincide, takes another basis for the shapes. `residual` is that of a shape at a rate, `null` are the shapes with A x = 0.
+/// Where rates coincide, takes another basis for the shapes. `residual` is that of a shape at a rate, `null` are the
+/// shapes with A x = 0.
 pub fn choose(
     modes: &mut [Mode],
     mass: &[f64],

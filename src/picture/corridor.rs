@@ -12,8 +12,8 @@ pub struct Corridor {
 }
 
 impl Corridor {
-    /// Reads 'rotation: 57 ms to 64 ms, 64 deg to 78 deg' for a table with these columns, each given as (name, unit); `any` leaves a side
-    /// open.
+    /// Reads 'rotation: 57 ms to 64 ms, 64 deg to 78 deg' for a table with these columns, each given as (name, unit);
+    /// `any` leaves a side open.
     ///
     /// # Errors
     /// A message that says what is wrong.

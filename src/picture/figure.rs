@@ -47,7 +47,8 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// How far anything, or the view, has moved since another figure of the same motion; infinite where a belt has become taut or slack.
+    /// How far anything, or the view, has moved since another figure of the same motion; infinite where a belt has
+    /// become taut or slack.
     pub fn change(&self, before: &Figure) -> f64 {
         let ends = |figure: &Figure| -> Vec<Point> {
             let bones = figure.bones.iter().flat_map(|(_, from, to)| [*from, *to]);
@@ -245,8 +246,8 @@ impl Projection<'_> {
         seen.iter().map(|&i| self.view.seen(axes[i])).collect()
     }
 
-    /// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, the outline is the ellipse of the block of Q in the
-    /// directions of the picture.
+    /// Outline of an ellipsoid with axes B and semi-axes a: with Q = B diag(a²) Bᵀ, the outline is the ellipse of the
+    /// block of Q in the directions of the picture.
     fn outline(&self, ellipsoid: &Ellipsoid) -> Ellipse {
         let axes = self.axes(ellipsoid);
         let entry = |i: usize, j: usize| -> f64 { axes.iter().map(|axis| axis[i] * axis[j]).sum() };
@@ -261,7 +262,8 @@ impl Projection<'_> {
         }
     }
 
-    /// Outline of a rounded box of degree n with axes aᵢ: its farthest point in the direction d is Σ aᵢ cᵢ with cᵢ ∝ |aᵢ·d|^(1/(n−1)), Σ |cᵢ|ⁿ = 1.
+    /// Outline of a rounded box of degree n with axes aᵢ: its farthest point in the direction d is Σ aᵢ cᵢ with cᵢ
+    /// ∝ |aᵢ·d|^(1/(n−1)), Σ |cᵢ|ⁿ = 1.
     fn corners(&self, ellipsoid: &Ellipsoid) -> Vec<Point> {
         let axes = self.axes(ellipsoid);
         let centre = self.seen(ellipsoid.center);

@@ -1,8 +1,9 @@
 //! Stick figures of a motion as a self-contained SVG or as PNG, like figure 6 of the paper.
 //!
-//! A model in space is seen from the side unless another [`View`] is requested: x to the right, z upwards, y into the page. An element is a
-//! line from its joint to the joints that it carries, a belt a line between its attachments, an ellipsoid its outline, a plane its
-//! edge or its corners within its extent; a plane without end is drawn where it is needed. All figures have the same scale.
+//! A model in space is seen from the side unless another [`View`] is requested: x to the right, z upwards, y into the
+//! page. An element is a line from its joint to the joints that it carries, a belt a line between its attachments, an
+//! ellipsoid its outline, a plane its edge or its corners within its extent; a plane without end is drawn where it is
+//! needed. All figures have the same scale.
 
 pub mod corridor;
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
@@ -35,7 +36,8 @@ pub struct Instant {
     pub state: Vec<f64>,
 }
 
-/// Draws a motion at those of its times that are in `times`. A figure is left out where little has moved since the one before; the heading of that says until when.
+/// Draws a motion at those of its times that are in `times`. A figure is left out where little has moved since the one
+/// before; the heading of that says until when.
 pub fn draw(
     model: &Model,
     scene: &Scene,
@@ -64,8 +66,8 @@ pub fn draw(
     .drawing()
 }
 
-/// Times for about `count` figures between `first` and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and both ends. If some of
-/// these steps are multiples of `every`, the time between samples, only those are used.
+/// Times for about `count` figures between `first` and `last`: multiples of 1, 2, 2.5 or 5 times a power of ten, and
+/// both ends. If some of these steps are multiples of `every`, the time between samples, only those are used.
 pub fn times([first, last]: [f64; 2], count: usize, every: f64) -> Vec<f64> {
     if !(last.is_finite() && last > first) || count < 2 {
         return vec![first];

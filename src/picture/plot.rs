@@ -1,7 +1,7 @@
 //! Lines in a frame with axes: columns of a table over one of its columns.
 //!
-//! Columns over time are curves of time. A force over the quantity that it depends on shows its law along the run, including loops of
-//! hysteresis.
+//! Columns over time are curves of time. A force over the quantity that it depends on shows its law along the run,
+//! including loops of hysteresis.
 
 use super::corridor::Corridor;
 use crate::table::{Column, Table};
@@ -67,8 +67,9 @@ const CORRIDOR: &str = ".corridor{fill:#1a9850;fill-opacity:0.14;stroke:#1a9850;
 const MARGIN: f64 = 0.03;
 
 impl Request {
-    /// Reads "force", "force, friction" or "force over penetration" for a table with these columns, each given as (name, unit); without
-    /// `over`, they are drawn over time. Names may contain commas and the word `over`: the name of a column is not split.
+    /// Reads "force", "force, friction" or "force over penetration" for a table with these columns, each given as
+    /// (name, unit); without `over`, they are drawn over time. Names may contain commas and the word `over`: the name
+    /// of a column is not split.
     ///
     /// # Errors
     /// Nothing is named, a column does not exist, or columns do not fit one axis.
@@ -112,8 +113,8 @@ impl Request {
         format!("{} over {}", self.of.join(", "), self.over)
     }
 
-    /// Words for the name of a file: "belt-force-over-elongation". A name without letters and digits is replaced by the numbers of its
-    /// characters.
+    /// Words for the name of a file: "belt-force-over-elongation". A name without letters and digits is replaced by the
+    /// numbers of its characters.
     pub fn slug(&self) -> String {
         let plain = |name: &String| match name.contains(char::is_alphanumeric) {
             true => name.clone(),

@@ -64,7 +64,8 @@ text{font-family:'DejaVu Sans',Arial,Helvetica,sans-serif;font-size:12px;fill:#2
 const STILL: f64 = 0.01;
 
 impl Sheet {
-    /// A sheet with those of these figures whose time is in `times`, less those since the one before which nothing has moved, at no time between.
+    /// A sheet with those of these figures whose time is in `times`, less those since the one before which nothing has
+    /// moved, at no time between.
     pub fn new(
         title: String,
         view: Option<String>,
@@ -181,7 +182,8 @@ impl Sheet {
         let score = |columns: usize| {
             let rows = count.div_ceil(columns);
             let scale = Plan::new(window, (columns, rows)).scale;
-            // A motion is read along a row: a height beyond two thirds of a screen counts against the size, as empty places do.
+            // A motion is read along a row: a height beyond two thirds of a screen counts against the size, as empty
+            // places do.
             let height = rows as f64 * (window.size()[1] * scale + TIME + TICKS);
             let full = count as f64 / (columns * rows) as f64;
             scale * full / (height / 600.0).max(1.0)

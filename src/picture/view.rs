@@ -1,5 +1,5 @@
-//! The directions from which a model is seen: the directions of space that are to the right and upwards in a picture. There is no
-//! perspective.
+//! The directions from which a model is seen: the directions of space that are to the right and upwards in a picture.
+//! There is no perspective.
 
 use super::figure::Point;
 use crate::pose::{Vec3, dot};

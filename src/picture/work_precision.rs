@@ -1,5 +1,6 @@
-//! The work–precision diagram: error across, time upwards, both logarithmic. The best variant of each method is a line in a colour of its own, all
-//! others are grey; the Pareto front lies behind the lines, the legend is beside, and a sentence below.
+//! The work–precision diagram: error across, time upwards, both logarithmic. The best variant of each method is a line
+//! in a colour of its own, all others are grey; the Pareto front lies behind the lines, the legend is beside, and a
+//! sentence below.
 
 use crate::accuracy::setting::time;
 use bryant_picture::chart::{Axes, power_of_ten};
@@ -41,7 +42,8 @@ pub struct Line {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito, and three more), black last, in the order of methods.
+/// Colours that remain distinct in print and for the colour-blind (Okabe and Ito, and three more), black last, in the
+/// order of methods.
 const COLOURS: [&str; 9] = [
     "#56b4e9", "#8c6d1f", "#e69f00", "#cc79a7", "#0072b2", "#009e73", "#d55e00", "#7a5195",
     "#1a1a1a",
@@ -139,7 +141,8 @@ impl Diagram {
         style
     }
 
-    /// The best line of each method: the one that is fastest for most errors, among half decades that any line of the method reaches.
+    /// The best line of each method: the one that is fastest for most errors, among half decades that any line of the
+    /// method reaches.
     // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
     #[doc(hidden)]
     pub fn best(&self) -> Vec<Option<usize>> {

@@ -57,7 +57,8 @@ pub struct Curve<'a> {
 /// A sample between two rows.
 struct Point {
     index: usize,
-    /// How far the curve would be off without it, as a share of the range of the curve; never more than that of a sample that was found before.
+    /// How far the curve would be off without it, as a share of the range of the curve; never more than that of a
+    /// sample that was found before.
     share: f64,
 }
 
@@ -108,7 +109,8 @@ pub fn curves(times: &[f64], outputs: &[Curve<'_>]) -> Vec<Value> {
     each.collect()
 }
 
-/// The samples between rows without which the curve would be off, and its smallest and largest sample (Ramer 1972, Douglas and Peucker 1973).
+/// The samples between rows without which the curve would be off, and its smallest and largest sample (Ramer 1972,
+/// Douglas and Peucker 1973).
 fn between(times: &[f64], values: &[f64], samples: &Samples<'_>) -> Vec<Point> {
     let finite = || samples.values.iter().copied().filter(|v| v.is_finite());
     let [low, high] = [

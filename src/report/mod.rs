@@ -1,5 +1,5 @@
-//! A run, modes or a study as one page of HTML. The page of a run has the motion, the curves and the verdict, that of modes the motion in each of them,
-//! that of a study distributions and rows. A page needs no other file and no network.
+//! A run, modes or a study as one page of HTML. The page of a run has the motion, the curves and the verdict, that of
+//! modes the motion in each of them, that of a study distributions and rows. A page needs no other file and no network.
 //!
 //! | file | what |
 //! |---|---|

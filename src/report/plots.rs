@@ -1,4 +1,5 @@
-//! Which outputs share a plot: those of one quantity at one place, and those that are alone at their places with others of their quantity.
+//! Which outputs share a plot: those of one quantity at one place, and those that are alone at their places with others
+//! of their quantity.
 
 use bryant_generator::model::{
     Body, ElementId, FreedomQuantity, JointLoadQuantity, Model, PointQuantity, Quantity,

@@ -70,8 +70,8 @@ fn ellipsoid(ellipsoid: &Ellipsoid) -> Value {
     })
 }
 
-/// Corners as whole numbers of steps from the low corner, and triangles as indices of corners, 16 bits each, or 32 if there are more corners than that; both in
-/// base64.
+/// Corners as whole numbers of steps from the low corner, and triangles as indices of corners, 16 bits each, or 32 if
+/// there are more corners than that; both in base64.
 fn mesh(mesh: &Mesh) -> Value {
     let [low, high] = mesh.triangles.around();
     let size = (0..3).fold(1e-9f64, |size, i| size.max(high[i] - low[i]));
@@ -120,7 +120,8 @@ fn plane(plane: &Plane) -> Value {
     })
 }
 
-/// The segments of a line: both ends, the force at each time, positive where it pulls, and at each time the points between the ends, if there are any.
+/// The segments of a line: both ends, the force at each time, positive where it pulls, and at each time the points
+/// between the ends, if there are any.
 fn segments(scene: &Scene, line: &Line) -> Vec<Value> {
     let kind = match line.kind {
         LineKind::Belt => "belt",

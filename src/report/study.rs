@@ -1,4 +1,5 @@
-//! A study as one page of HTML: distributions, sensitivities, points of runs that can be selected, and the runs as rows.
+//! A study as one page of HTML: distributions, sensitivities, points of runs that can be selected, and the runs as
+//! rows.
 
 use super::{filled, short};
 use crate::process::quoted;

@@ -4,8 +4,9 @@ use super::{Bodies, BodyPoint};
 use crate::pose::{Numbers, Vec3, bryant_rotation, dot};
 use bryant_generator::model::{Body, Dimension, Element, ElementId, Freedom, Number};
 
-/// Lines from the joint of each element to the joints that it carries, or to its ends, and the centres of gravity of elements that carry no other. Where a joint
-/// slides, a line leads from its place to the part that has slid away from it.
+/// Lines from the joint of each element to the joints that it carries, or to its ends, and the centres of gravity of
+/// elements that carry no other. Where a joint slides, a line leads from its place to the part that has slid away from
+/// it.
 pub fn bones(bodies: &Bodies<'_>, numbers: Numbers<'_>) -> (Vec<[BodyPoint; 2]>, Vec<BodyPoint>) {
     let (mut bones, mut masses) = (Vec::new(), Vec::new());
     for id in bodies.ids() {
@@ -44,8 +45,9 @@ pub fn bones(bodies: &Bodies<'_>, numbers: Numbers<'_>) -> (Vec<[BodyPoint; 2]>,
     (bones, masses)
 }
 
-/// Ends of an element that carries no other element, in its local frame: the ends of the uniform rod with the same mass and the same
-/// largest moment about the joint; for an element that turns about its centre of gravity, the ends along its axes.
+/// Ends of an element that carries no other element, in its local frame: the ends of the uniform rod with the same mass
+/// and the same largest moment about the joint; for an element that turns about its centre of gravity, the ends along
+/// its axes.
 fn ends(numbers: Numbers<'_>, element: &Element) -> Vec<Vec3> {
     let value = |number: &Number| number.value(numbers.parameters);
     let cg = numbers.vector(&element.cg);

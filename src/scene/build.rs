@@ -167,7 +167,8 @@ impl Builder<'_> {
         });
     }
 
-    /// Adds the forces on the body of an ellipsoid at all times. `normal` is that of the plane that it meets, with its body.
+    /// Adds the forces on the body of an ellipsoid at all times. `normal` is that of the plane that it meets, with its
+    /// body.
     fn pushes(
         &mut self,
         index: usize,

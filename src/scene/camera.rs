@@ -1,8 +1,8 @@
 //! What a view stays with, from where it looks, and how much it shows.
 //!
-//! It stays with the vehicle that most is fixed to, among those that move. Without one it stays with the first body if the motion leads farther than three times the size
-//! of what moves. It looks from the side, unless the box around the whole motion is seen larger from the front or
-//! from above, by a quarter of its area.
+//! It stays with the vehicle that most is fixed to, among those that move. Without one it stays with the first body if
+//! the motion leads farther than three times the size of what moves. It looks from the side, unless the box around the
+//! whole motion is seen larger from the front or from above, by a quarter of its area.
 
 use super::{BodyPoint, Scene, from_to, length};
 use crate::picture::View;
@@ -65,7 +65,8 @@ impl Scene {
         })
     }
 
-    /// The points that say where things are at a time, of bodies that move by their equations and of lines, and how far the bodies reach around them \[m\].
+    /// The points that say where things are at a time, of bodies that move by their equations and of lines, and how far
+    /// the bodies reach around them \[m\].
     fn landmarks(&self, k: usize) -> impl Iterator<Item = (Vec3, f64)> + '_ {
         let bones = self.bones.iter().flatten().map(|place| (*place, 0.0));
         let ends = self.lines.iter().flat_map(|line| &line.points);
@@ -108,8 +109,8 @@ impl Scene {
         length(from_to(low, high))
     }
 
-    /// How far what is drawn of a body is from where it was at another time: the largest displacement of a point \[m\]. Of a body that
-    /// curves, the points are those in 26 directions from its middle.
+    /// How far what is drawn of a body is from where it was at another time: the largest displacement of a point \[m\].
+    /// Of a body that curves, the points are those in 26 directions from its middle.
     pub fn displacement(&self, from: usize, k: usize) -> f64 {
         let bones = self.bones.iter().flatten().copied();
         let ends = self.lines.iter().flat_map(|line| &line.points).copied();

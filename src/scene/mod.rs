@@ -1,5 +1,6 @@
-//! A motion as it is seen: bodies with their shapes, and what acts between them, at every time. Pictures, the page of a report and animations are made of this.
-//! What a law looks like is said by the law ([`Visible::looks`](bryant_generator::model::law::Visible::looks)).
+//! A motion as it is seen: bodies with their shapes, and what acts between them, at every time. Pictures, the page of a
+//! report and animations are made of this. What a law looks like is said by the law
+//! ([`Visible::looks`](bryant_generator::model::law::Visible::looks)).
 
 mod bodies;
 mod bones;
@@ -138,7 +139,8 @@ pub struct Push {
     pub on_body: Vec3,
 }
 
-/// The model with additional outputs after its own: what a scene with forces has to know ([`Look::asks`]), force by force.
+/// The model with additional outputs after its own: what a scene with forces has to know ([`Look::asks`]), force by
+/// force.
 pub fn with_forces(model: &Model) -> Model {
     let mut model = model.clone();
     for (index, force) in model.forces.iter().enumerate() {
@@ -161,7 +163,8 @@ pub fn with_forces(model: &Model) -> Model {
     model
 }
 
-/// Whether a scene without forces does not show how full bags are, or which belts are taut: those whose untensioned length changes, or that act at times.
+/// Whether a scene without forces does not show how full bags are, or which belts are taut: those whose untensioned
+/// length changes, or that act at times.
 pub fn needs_forces(model: &Model) -> bool {
     let changes = |force: &Force| {
         force.law.looks().into_iter().any(|look| match look {
@@ -180,10 +183,12 @@ pub fn needs_forces(model: &Model) -> bool {
 }
 
 impl Scene {
-    /// A motion through these instants. `coordinates` are the names of q, `parameters` the values of the run (SI, in the model's order). `forces` has a column for
-    /// each output that [`with_forces`] adds, with a value for each instant, or no column.
+    /// A motion through these instants. `coordinates` are the names of q, `parameters` the values of the run (SI, in
+    /// the model's order). `forces` has a column for each output that [`with_forces`] adds, with a value for each
+    /// instant, or no column.
     ///
-    /// Instants with coordinates that are not finite are left out: of a failed run there is what was before its failure.
+    /// Instants with coordinates that are not finite are left out: of a failed run there is what was before its
+    /// failure.
     ///
     /// # Errors
     /// The coordinates do not belong to the model.
@@ -263,7 +268,8 @@ impl Scene {
         std::iter::once(from).chain(between).chain([to]).collect()
     }
 
-    /// Whether a segment of a belt is taut at a time: by its force, or by the untensioned length at the start where forces are not known.
+    /// Whether a segment of a belt is taut at a time: by its force, or by the untensioned length at the start where
+    /// forces are not known.
     pub fn taut(&self, k: usize, line: &Line, segment: usize) -> bool {
         if let Some(pulls) = line.pulls.get(segment) {
             return pulls[k] > 0.0;

@@ -1,7 +1,9 @@
-//! The way of a belt over the bodies that it is on: a band that is tight from end to end and stays out of their ellipsoids.
+//! The way of a belt over the bodies that it is on: a band that is tight from end to end and stays out of their
+//! ellipsoids.
 //!
-//! Its points move to the middle of their neighbours, and those in an ellipsoid to its surface, away from its centre, again and again. So the band lies on the side where
-//! the straight line passes. Nothing but drawings uses it: the force acts along the straight line.
+//! Its points move to the middle of their neighbours, and those in an ellipsoid to its surface, away from its centre,
+//! again and again. So the band lies on the side where the straight line passes. Nothing but drawings uses it: the
+//! force acts along the straight line.
 
 use super::{BodyPoint, Scene, from_to, length};
 use crate::pose::{Vec3, dot};
@@ -42,8 +44,8 @@ impl Solid {
     }
 }
 
-/// The points between the ends of each segment of a line at all times, by segment and time: [`BETWEEN`] of a segment that meets one of the bodies at some time, none of
-/// others.
+/// The points between the ends of each segment of a line at all times, by segment and time: [`BETWEEN`] of a segment
+/// that meets one of the bodies at some time, none of others.
 pub fn ways(scene: &Scene, points: &[BodyPoint]) -> Vec<Vec<Vec<Vec3>>> {
     let bodies = between(scene, points);
     let solids: Vec<Vec<Solid>> = (0..scene.times.len())

@@ -202,8 +202,8 @@ impl ModelFacts {
         shown.unwrap_or_else(|| UnitSystem::Si.unit(TIME))
     }
 
-    /// The unit in which a response of an output is shown. One of another unit than the output, as an integral over time, is a time or is
-    /// shown in SI.
+    /// The unit in which a response of an output is shown. One of another unit than the output, as an integral over
+    /// time, is a time or is shown in SI.
     pub fn unit_for(&self, si: &str, output: &OutputFact) -> Unit {
         match si {
             si if si == output.unit => output.unit_shown(),
@@ -234,7 +234,8 @@ impl OutputFact {
     }
 }
 
-/// A field is gravity if it is constant, points down within this slope, and has no more than this many times standard gravity.
+/// A field is gravity if it is constant, points down within this slope, and has no more than this many times standard
+/// gravity.
 const SLOPE: f64 = 0.6;
 const LARGEST: f64 = 1.1;
 

@@ -1,7 +1,7 @@
 //! Units: their factors to SI and their dimensions.
 //!
-//! A dimension is a product of powers m^a kg^b s^c K^d; the radian is carried along to name units (N·m·s/rad) but does not
-//! count when dimensions are compared.
+//! A dimension is a product of powers m^a kg^b s^c K^d; the radian is carried along to name units (N·m·s/rad) but does
+//! not count when dimensions are compared.
 
 use std::fmt;
 use std::ops::{Div, Mul};
@@ -310,7 +310,8 @@ pub fn spelled(said: &str) -> &str {
     }
 }
 
-/// A whole power by products: the square of the square and so on, and the reciprocal of that where the exponent is negative.
+/// A whole power by products: the square of the square and so on, and the reciprocal of that where the exponent is
+/// negative.
 pub fn whole_power(base: f64, exponent: i32) -> f64 {
     let (mut square, mut left, mut power) = (base, exponent.unsigned_abs(), 1.0);
     while left > 0 {

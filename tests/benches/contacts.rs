@@ -1,4 +1,5 @@
-//! The cost of the approach of two ellipsoids and of a curve, over one double and over wide registers: nanoseconds for each call.
+//! The cost of the approach of two ellipsoids and of a curve, over one double and over wide registers: nanoseconds for
+//! each call.
 //!
 //! `cargo bench -p bryant-tests --bench contacts`
 

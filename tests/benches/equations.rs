@@ -1,5 +1,5 @@
-//! Times of derivation and evaluation, with operation counts. `cargo bench` measures; `cargo test --bench equations` does each once, to see
-//! that it works.
+//! Times of derivation and evaluation, with operation counts. `cargo bench` measures; `cargo test --bench equations`
+//! does each once, to see that it works.
 
 use bryant_generator::Config;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -70,7 +70,8 @@ fn state<M: Model<f64>>(mechanism: &M) -> M::State {
     y
 }
 
-/// Accelerations alone, and the derivative of the state (accelerations and q̇), with the operation count of the accelerations.
+/// Accelerations alone, and the derivative of the state (accelerations and q̇), with the operation count of the
+/// accelerations.
 macro_rules! evaluation {
     ($name:literal, $path:literal, $($module:ident)::+) => {{
         use $($module)::+ as module;

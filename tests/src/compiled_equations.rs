@@ -45,8 +45,8 @@ pub fn parameters<P: ParameterSet<f64>>(values: &[f64]) -> P {
     parameters
 }
 
-/// The [`Compiled`] of a generated module without Jacobian, from the path of its YAML and the path of the module. `; m` behind them says
-/// that its methods take a memory, `, in t` that S and r_s depend on time.
+/// The [`Compiled`] of a generated module without Jacobian, from the path of its YAML and the path of the module. `; m`
+/// behind them says that its methods take a memory, `, in t` that S and r_s depend on time.
 #[macro_export]
 macro_rules! compiled {
     ($path:expr, $($module:ident)::+ $(, in $t:ident)? $(; $m:ident)?) => {

@@ -3,7 +3,8 @@
 use crate::models::user_plane::plane::{Input, Output, input};
 use bryant_runtime::Real;
 
-/// The forces of `models/twin-plane.yaml`. Inputs that are given in several forms are compared: a difference would turn the head.
+/// The forces of `models/twin-plane.yaml`. Inputs that are given in several forms are compared: a difference would turn
+/// the head.
 pub fn plane<T: Real>(input: &Input<T>) -> Output<T> {
     let num = T::from_f64;
     let (points, bodies, lines) = (&input.points, &input.bodies, &input.lines);

@@ -40,7 +40,8 @@ impl Recording {
     }
 }
 
-/// A run with the settings of the model but with these parameters, by the adaptive method, with one tolerance for all variables.
+/// A run with the settings of the model but with these parameters, by the adaptive method, with one tolerance for all
+/// variables.
 ///
 /// # Panics
 /// If the run fails.

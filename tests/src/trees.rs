@@ -22,7 +22,8 @@ pub enum Shape {
     Random,
 }
 
-/// A model of one random tree in a field of gravity. Masses 0.5 to 5 kg, lengths up to 0.4 m, inertias of general ellipsoids.
+/// A model of one random tree in a field of gravity. Masses 0.5 to 5 kg, lengths up to 0.4 m, inertias of general
+/// ellipsoids.
 pub fn random_tree(
     random: &mut Random,
     dimension: Dimension,
@@ -153,15 +154,16 @@ pub fn choices(function: Function, arguments: &[f64]) -> f64 {
     }
 }
 
-/// Random charts for a model in Bryant angles, one for each element, which are the first entries of its memory; empty for other models.
+/// Random charts for a model in Bryant angles, one for each element, which are the first entries of its memory; empty
+/// for other models.
 pub fn random_charts(random: &mut Random, model: &Model) -> Vec<f64> {
     (0..Layout::of(model).charts())
         .map(|_| f64::from(u8::from(random.uniform(0.0, 1.0) > 0.5)))
         .collect()
 }
 
-/// A random state: positions within a metre, any orientation (Bryant angles away from their singularity), rates of a few
-/// per second.
+/// A random state: positions within a metre, any orientation (Bryant angles away from their singularity), rates of a
+/// few per second.
 pub fn random_state(random: &mut Random, model: &Model) -> (Vec<f64>, Vec<f64>) {
     let layout = Layout::of(model);
     let mut q: Vec<f64> = layout

@@ -77,7 +77,8 @@ fn output(run: &Value, name: &str) -> Vec<f64> {
         .collect()
 }
 
-/// A free rod whose centre of gravity moves along a straight line: the acceleration of this point is 0, that of the end is not.
+/// A free rod whose centre of gravity moves along a straight line: the acceleration of this point is 0, that of the end
+/// is not.
 const ROD: &str = "\
 model: rod
 title: a free rod
@@ -239,8 +240,9 @@ fn a_verification_that_fails_is_an_error() {
     assert!(stderr.contains("not as accurate as"), "{stderr}");
 }
 
-/// Two links, thrown to the floor: their hinge is free, so its moment about its own axis is 0, but for the rounding of the moments of the impact, which
-/// are gone at the end. The peg hangs on a spring of 1 kN/m and swings by 1 µm: its force is 1 mN.
+/// Two links, thrown to the floor: their hinge is free, so its moment about its own axis is 0, but for the rounding of
+/// the moments of the impact, which are gone at the end. The peg hangs on a spring of 1 kN/m and swings by 1 µm: its
+/// force is 1 mN.
 const HINGE: &str = "\
 model: hinge
 dimension: 3

@@ -298,7 +298,8 @@ systems:
 run: { duration: DURATION, every: EVERY }
 ";
 
-/// Players turn a body the shorter way from one keyframe to the next: 100 rad/s for 1 s are 100/2π = 15.92 turns, whatever the rows.
+/// Players turn a body the shorter way from one keyframe to the next: 100 rad/s for 1 s are 100/2π = 15.92 turns,
+/// whatever the rows.
 #[test]
 fn fast_turns_are_played_as_they_are() {
     let directory = directory();

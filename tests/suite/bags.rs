@@ -38,7 +38,8 @@ fn close(what: &str, ours: f64, expected: f64, relative: f64) {
     assert!(error < relative, "{what}: {ours} instead of {expected}");
 }
 
-/// While the flow is choked, p/p₀ = (1 + (γ − 1)/2 k t)^(−2γ/(γ − 1)) with k = C A √(R T₀)/V · √γ (2/(γ + 1))^((γ + 1)/(2(γ − 1))).
+/// While the flow is choked, p/p₀ = (1 + (γ − 1)/2 k t)^(−2γ/(γ − 1)) with k = C A √(R T₀)/V · √γ
+/// (2/(γ + 1))^((γ + 1)/(2(γ − 1))).
 #[test]
 fn a_bag_blows_down_as_a_perfect_gas_does() {
     let (table, _) = run(&blowing_down(), &["--tolerance", "1e-11"]);
@@ -142,8 +143,8 @@ fn a_bag_without_a_hole_gives_back_what_it_took() {
     );
 }
 
-/// When a ball passes the middle of a bag that pushes, the direction of its force is not determined. A folded bag does not push, and
-/// nothing jumps.
+/// When a ball passes the middle of a bag that pushes, the direction of its force is not determined. A folded bag does
+/// not push, and nothing jumps.
 #[test]
 fn a_ball_that_passes_the_middle_of_a_bag_is_told() {
     let directory = directory();
@@ -163,7 +164,8 @@ fn a_ball_that_passes_the_middle_of_a_bag_is_told() {
     assert!(column(&table, "speed").iter().all(|speed| *speed == 6.0));
 }
 
-/// H = γ/(γ − 1) ṁ R T_in fills a slack bag at the ambient pressure: V = m R T_in/p_a, once the initial gas is negligible.
+/// H = γ/(γ − 1) ṁ R T_in fills a slack bag at the ambient pressure: V = m R T_in/p_a, once the initial gas is
+/// negligible.
 #[test]
 fn a_slack_bag_fills_at_the_pressure_around_it() {
     let filling = FLIGHT

@@ -5,7 +5,8 @@ use super::directory;
 use super::tables::{column, energy, run};
 use std::fs;
 
-/// A rope of two segments of 1 m around a pin at a right angle. Its end is pulled by 100 mm and, with `back`, released by 90 mm again.
+/// A rope of two segments of 1 m around a pin at a right angle. Its end is pulled by 100 mm and, with `back`, released
+/// by 90 mm again.
 fn rope(back: bool) -> String {
     // a triangle up and one down: 0.1 m within 0.4 s, at rest at both ends
     let pull = "[0, 0], [0.1, 5], [0.2, 0], [0.3, -5], [0.4, 0]";

@@ -1,5 +1,5 @@
-//! Certification tests of the Hybrid III dummies, 49 CFR Part 572: the corridors that are met, and those that are not. docs/validation.md
-//! has the same numbers.
+//! Certification tests of the Hybrid III dummies, 49 CFR Part 572: the corridors that are met, and those that are not.
+//! docs/validation.md has the same numbers.
 
 use super::command_call::call;
 use super::directory;
@@ -160,8 +160,8 @@ fn necks_bend_as_the_page_says() {
     }
 }
 
-/// The pendulum stays in the corridors of the regulation for its deceleration \[gn\], or for the change of its velocity \[m/s\], at 10, 20
-/// and 30 ms.
+/// The pendulum stays in the corridors of the regulation for its deceleration \[gn\], or for the change of its velocity
+/// \[m/s\], at 10, 20 and 30 ms.
 #[test]
 fn pendulums_are_braked_within_their_corridors() {
     let decelerations = [

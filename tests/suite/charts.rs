@@ -90,8 +90,9 @@ fn adaptive(formula: Formula, tolerance: f64) -> Integrator {
     Integrator::adaptive(formula, Tolerances::uniform(tolerance))
 }
 
-/// The error theory of `motion`: each of n steps errs by the tolerance τ times the size y of the state times the growth G of errors, which
-/// is measured by a run from a disturbed state. The states stay below 10 (metres, radians and their rates).
+/// The error theory of `motion`: each of n steps errs by the tolerance τ times the size y of the state times the growth
+/// G of errors, which is measured by a run from a disturbed state. The states stay below 10 (metres, radians and their
+/// rates).
 #[test]
 fn bodies_driven_through_the_pole_move_as_in_quaternions() {
     const TOLERANCE: f64 = 1e-14;
@@ -113,7 +114,8 @@ fn bodies_driven_through_the_pole_move_as_in_quaternions() {
     }
 }
 
-/// Every integration method, with fixed steps or not, passes through the pole with an error below the theoretical bound.
+/// Every integration method, with fixed steps or not, passes through the pole with an error below the theoretical
+/// bound.
 #[test]
 fn every_method_goes_through_the_pole() {
     const SIZE: f64 = 10.0;
@@ -136,8 +138,8 @@ fn every_method_goes_through_the_pole() {
             assert!(*found <= bound, "{formula}: {found:e} > {bound:e}");
         }
     }
-    // fixed steps keep their order: with half the step, the error is 2^p times smaller; a factor of two is allowed for terms of higher
-    // order
+    // fixed steps keep their order: with half the step, the error is 2^p times smaller; a factor of two is allowed for
+    // terms of higher order
     for formula in [Formula::SemiImplicitEuler, Formula::Heun, Formula::Rk4] {
         let error = |steps: f64| {
             let method = Integrator::fixed(formula, 1.0 / steps);
@@ -183,8 +185,8 @@ fn single_precision_goes_through_the_pole() {
     }
 }
 
-/// Two trees tumble freely through many changes of charts: the errors of the steps add up, times the derivative of the conserved quantity
-/// with respect to the state, as in `motion`.
+/// Two trees tumble freely through many changes of charts: the errors of the steps add up, times the derivative of the
+/// conserved quantity with respect to the state, as in `motion`.
 #[test]
 fn a_tumbling_tree_conserves_energy_and_momentum_over_charts() {
     const TOLERANCE: f64 = 1e-12;
@@ -222,8 +224,8 @@ fn omega(angles: &[f64], rates: &[f64]) -> Vector3<f64> {
     Vector3::x() * rates[0] + first * Vector3::y() * rates[1] + second * Vector3::z() * rates[2]
 }
 
-/// A change of chart keeps A and ω within a few roundings, divided by the cosine of the new second angle, which is at least 0.6; entries
-/// that do not change keep every bit.
+/// A change of chart keeps A and ω within a few roundings, divided by the cosine of the new second angle, which is at
+/// least 0.6; entries that do not change keep every bit.
 #[test]
 fn a_change_of_chart_is_none_of_the_body() {
     let mut random = Random::new(11);

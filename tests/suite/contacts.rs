@@ -76,7 +76,8 @@ fn a_cushion_gives_back_the_energy_under_its_lower_curve() {
     }
 }
 
-/// The force after a whole history of penetrations, computed branch by branch: on the loading curve, on a line, on the unloading curve.
+/// The force after a whole history of penetrations, computed branch by branch: on the loading curve, on a line, on the
+/// unloading curve.
 struct History<'a> {
     loading: &'a dyn Fn(f64) -> f64,
     unloading: Option<&'a dyn Fn(f64) -> f64>,
@@ -130,8 +131,8 @@ fn loops_of_any_depth_close() {
         slope: steep,
         through: (0.0, 0.0),
     };
-    // The samples miss a turning point by at most half their interval Δt: by a (Δt/2)²/2 of the penetration, where a is the largest
-    // acceleration. Every turn may contribute this error, which the slopes of the lines convert to a force.
+    // The samples miss a turning point by at most half their interval Δt: by a (Δt/2)²/2 of the penetration, where a is
+    // the largest acceleration. Every turn may contribute this error, which the slopes of the lines convert to a force.
     let (acceleration, sampling, turns) = (55.0, 1e-4f64, 10.0);
     let missed = turns * acceleration * sampling * sampling / 8.0;
     let (mut least, mut turned, mut before) = (f64::INFINITY, 0, 0.0);
@@ -181,8 +182,8 @@ fn work(run: &Recording, penetration: &str, force: &str) -> f64 {
 
 #[test]
 fn damping_that_fades_in_takes_what_hunt_and_crossley_say() {
-    // While the damping fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so v/λ − k/λ² ln(1 + λ v/k) is the
-    // same at the first touch and at the last.
+    // While the damping fades in, the force is k δ + λ δ δ̇ with λ = d/depth: m v dv/dδ = −δ (k + λ v), so v/λ − k/λ²
+    // ln(1 + λ v/k) is the same at the first touch and at the last.
     let entry = models::bounce::ENTRY;
     let (stiffness, mass, speed) = (1e4f64, 1.0, 1.0);
     for (damping, depth) in [(20.0, 0.02), (200.0, 0.02), (200.0, 0.5)] {
@@ -242,8 +243,8 @@ fn a_block_holds_on_a_slope() {
             TOLERANCE,
             Some(duration),
         );
-        // While the block sticks, its displacement and the deflection of the bristle have the same rate, so that their difference is
-        // constant whatever the errors of the steps are; the deflection tends to z_b tan θ/μ.
+        // While the block sticks, its displacement and the deflection of the bristle have the same rate, so that their
+        // difference is constant whatever the errors of the steps are; the deflection tends to z_b tan θ/μ.
         let way = downhill(&run, slope);
         let held = displacement * slope.tan() / mu;
         let bound = run.steps * TOLERANCE;
@@ -294,8 +295,8 @@ fn a_sliding_block_stops_and_springs_back_by_its_bristle() {
         ];
         let run = run(&entry, &parameters, TOLERANCE);
         let (distance, time) = (speed * speed / (2.0 * mu * G), speed / (mu * G));
-        // During sliding, the deflection tends to z_b with the rate v_s/z_b. It springs back by the deflection reached, and the friction
-        // leaves μN when s_t falls below 1, within that share of v_s.
+        // During sliding, the deflection tends to z_b with the rate v_s/z_b. It springs back by the deflection reached,
+        // and the friction leaves μN when s_t falls below 1, within that share of v_s.
         let lacks = f64::exp(-time * 0.01 / displacement);
         let error = run.steps * TOLERANCE * f64::max(1.0, time);
         let bound = error + displacement * lacks + 0.01 * lacks * time;
@@ -569,8 +570,8 @@ fn a_rounded_box_keeps_its_energy() {
         let springs = [floor, wall].map(|x: f64| 0.5 * 2e4 * x.max(0.0).powi(2));
         kinetic + mass * G * z + springs[0] + springs[1]
     };
-    // A corner of degree 8 and radius r/8 rotates under the deepest point: a few times the rate of the springs. The error of an energy of
-    // 10 J and 2 kg is that of its speed of 3 m/s times its mass.
+    // A corner of degree 8 and radius r/8 rotates under the deepest point: a few times the rate of the springs. The
+    // error of an energy of 10 J and 2 kg is that of its speed of 3 m/s times its mass.
     let bound = 6.0 * integration(&run, 4.0 * f64::sqrt(2e4 / 0.5));
     for (k, t) in run.times.iter().enumerate() {
         let error = (energy(k) - energy(0)).abs();
@@ -616,8 +617,8 @@ fn the_deepest_point_of_a_rounded_box_is_the_deepest() {
                     deepest = deepest.max(dot(pose.point(point), down));
                 }
             }
-            // No sample is deeper. At a distance of at most 0.2 m, two directions of the grid are one grid width apart, and the surface
-            // between them rises by no more than this, however steep it is.
+            // No sample is deeper. At a distance of at most 0.2 m, two directions of the grid are one grid width apart,
+            // and the surface between them rises by no more than this, however steep it is.
             let width = 2.0 * 0.2 * std::f64::consts::PI / GRID as f64;
             assert!(deepest <= ours + 1e-12, "{deepest} {ours}");
             assert!(ours - deepest <= width, "{deepest} {ours}");
@@ -732,7 +733,8 @@ fn stones_keep_energy_and_momentum() {
             );
         }
     }
-    // the deepest points of both, along the line that connects them: as deep as the output says, and no surface in between
+    // the deepest points of both, along the line that connects them: as deep as the output says, and no surface in
+    // between
     let touching = (0..run.times.len()).filter(|k| hit[*k] > 1e-3);
     let (mut checked, semi) = (0, [[0.12, 0.07, 0.09], [0.15, 0.08, 0.1]]);
     for k in touching {
@@ -751,7 +753,8 @@ fn stones_keep_energy_and_momentum() {
                 least = least.min(overlap([s * d, s * t, c]));
             }
         }
-        // half a grid width e from the smallest overlap, the overlap is larger by e²/2 times radii of curvature, each at most a²/c
+        // half a grid width e from the smallest overlap, the overlap is larger by e²/2 times radii of curvature, each
+        // at most a²/c
         let width = std::f64::consts::PI / GRID as f64;
         let curved = 0.15 * 0.15 / 0.08 + 0.12 * 0.12 / 0.07;
         assert!(hit[k] <= least + 1e-12, "{} {least}", hit[k]);

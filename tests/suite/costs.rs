@@ -3,8 +3,8 @@
 use super::command_call::call;
 use super::{directory, json};
 
-/// Arguments for a study of the clock: few points, one repetition, and so much time that a pause of a busy machine does not make a point
-/// look too slow to run.
+/// Arguments for a study of the clock: few points, one repetition, and so much time that a pause of a busy machine does
+/// not make a point look too slow to run.
 const STUDY: [&str; 15] = [
     "accuracy",
     "clock.yaml",
@@ -23,8 +23,8 @@ const STUDY: [&str; 15] = [
     "--json",
 ];
 
-/// The best lines of a diagram and its legend, as far as they do not depend on times: which variant of a method is the best one, and so how
-/// many points its line has, does.
+/// The best lines of a diagram and its legend, as far as they do not depend on times: which variant of a method is the
+/// best one, and so how many points its line has, does.
 fn structure(svg: &str) -> Vec<String> {
     let line = |line: &str| {
         Some(
@@ -44,8 +44,8 @@ fn structure(svg: &str) -> Vec<String> {
     parts
 }
 
-/// θ̈ = −κ sin θ swings at ω = √κ, κ = m g l/J = 2·9.81·0.5/0.6: a step that errs by the tolerance changes the end of a run of T = 1 s by
-/// at most (1 + ωT) times as much.
+/// θ̈ = −κ sin θ swings at ω = √κ, κ = m g l/J = 2·9.81·0.5/0.6: a step that errs by the tolerance changes the end of a
+/// run of T = 1 s by at most (1 + ωT) times as much.
 #[test]
 fn errors_fall_with_the_tolerance_and_are_written_down() {
     let directory = directory();
@@ -91,8 +91,8 @@ fn errors_fall_with_the_tolerance_and_are_written_down() {
         assert!(error > 0.1 * f64::from(f32::EPSILON), "{point}");
     }
 
-    // the file has the same numbers, and the settings that they were computed with (serde_json reads a number to within a unit in the last
-    // place)
+    // the file has the same numbers, and the settings that they were computed with (serde_json reads a number to within
+    // a unit in the last place)
     let same = |text: String, value: &serde_json::Value| match (text.parse::<f64>(), value.as_f64())
     {
         (Ok(a), Some(b)) => (a - b).abs() <= 2.0 * epsilon * b.abs(),

@@ -67,7 +67,8 @@ fn pulses_have_the_criteria_of_their_closed_forms() {
         "head=head",
     ];
     let found = judged(path, &of_head);
-    // without a filter: 829.29, and 3 ms between 98.6 and 97.2 of each; CFC1000 and CFC180 reduce pulses of 20 and 60 ms by less than 0.1 %
+    // without a filter: 829.29, and 3 ms between 98.6 and 97.2 of each; CFC1000 and CFC180 reduce pulses of 20 and 60
+    // ms by less than 0.1 %
     let near = |name: &str, exact: f64| {
         let found = value(&found, name);
         assert!(
@@ -116,8 +117,9 @@ fn rectangle(size: f64, length: f64) -> impl Fn(f64) -> f64 {
     }
 }
 
-/// Limits of UN R94 that fall with the duration of a force: a rectangle at each corner, one that is a little higher, one that lasts a little longer. What
-/// is seen without a formula: behind the last corner a force may last; regulations with one limit judge the peak.
+/// Limits of UN R94 that fall with the duration of a force: a rectangle at each corner, one that is a little higher,
+/// one that lasts a little longer. What is seen without a formula: behind the last corner a force may last; regulations
+/// with one limit judge the peak.
 #[test]
 fn limits_fall_with_the_duration_of_a_force() {
     let directory = directory();
@@ -208,8 +210,8 @@ criteria: { standard: UN R94, dummy: Hybrid III 50M, neck: man/head }
 run: { duration: 90 ms, every: 0.1 ms }
 ";
 
-/// The trapezium exceeds F (1 - u) for 50 ms + 20 ms u. Beside the limit of this duration that is largest at its top: 2000 N for 50 ms, where 1820 N are
-/// allowed. A run says so, and its recording; a study and a gradient have the ratio.
+/// The trapezium exceeds F (1 - u) for 50 ms + 20 ms u. Beside the limit of this duration that is largest at its top:
+/// 2000 N for 50 ms, where 1820 N are allowed. A run says so, and its recording; a study and a gradient have the ratio.
 #[test]
 fn a_force_that_lasts_is_the_same_in_every_command() {
     let directory = directory();
@@ -630,7 +632,8 @@ fn a_channel_that_failed_is_not_used() {
 /// Damages the text of a channel; `None` if it has nothing to damage.
 type Damages = fn(&str) -> Option<String>;
 
-/// What can be wrong with the file of a channel: how its text is made from a sound one; `None` stands for no file at all.
+/// What can be wrong with the file of a channel: how its text is made from a sound one; `None` stands for no file at
+/// all.
 const DAMAGE: [(&str, Damages); 5] = [
     ("is neither a number", |text| Some(format!("{text}x\n"))),
     ("there is no file .002 of this channel", |_| None),
@@ -661,7 +664,8 @@ fn damage(path: &Path, code: &str, how: fn(&str) -> Option<String>) {
     }
 }
 
-/// A damaged channel that the verdict does not need is left out and named; one that it needs, or might have needed, is an error.
+/// A damaged channel that the verdict does not need is left out and named; one that it needs, or might have needed, is
+/// an error.
 #[test]
 fn a_damaged_channel_matters_where_it_might_have_been_used() {
     let directory = directory();
@@ -823,8 +827,8 @@ fn a_run_is_judged_as_its_recording_is() {
         ]
         .concat(),
     );
-    // one has samples between its steps, the other rows at the ends of its steps: both err by less than 1e-4, which the default tolerance
-    // keeps
+    // one has samples between its steps, the other rows at the ends of its steps: both err by less than 1e-4, which the
+    // default tolerance keeps
     for name in ["HIC15", "chest 3 ms"] {
         let both = [&run["criteria"], &recording].map(|judged| value(judged, name));
         assert!((both[0] / both[1] - 1.0).abs() < 1e-4, "{name} {both:?}");
@@ -958,8 +962,8 @@ fn criteria_of_a_model_are_the_same_in_every_command() {
     let [below, here, above] = [0.0297, 0.03, 0.0303].map(hic);
     let slope = (above - below) / 6e-4;
     let found = numbers(&gradient);
-    // one of the numbers in the answer is the value and one the slope; differences over 1 % of the slack err by their square, and a sample
-    // is 1 % of a jump
+    // one of the numbers in the answer is the value and one the slope; differences over 1 % of the slack err by their
+    // square, and a sample is 1 % of a jump
     assert!(
         found.iter().any(|x| (x / here - 1.0).abs() < 1e-4),
         "{here} {text}"
@@ -1040,9 +1044,9 @@ fn outputs_are_filtered_whatever_rows_are_shown() {
             .count();
         assert!(differ > 100, "the filter does nothing here");
         for (row, expected) in fine.iter().zip(&expected) {
-            // the model's rows are 2 ms apart, with 20 samples in each, every 0.1 ms; here these samples are rows. Other rows cause other
-            // steps, which the tolerance of 1e-7 keeps to 1e-4, and an average over the time of a filter is closer. The two standards,
-            // whose frequencies differ by 0.28 %, differ by more
+            // the model's rows are 2 ms apart, with 20 samples in each, every 0.1 ms; here these samples are rows.
+            // Other rows cause other steps, which the tolerance of 1e-7 keeps to 1e-4, and an average over the time of
+            // a filter is closer. The two standards, whose frequencies differ by 0.28 %, differ by more
             assert!(
                 (row[2] - expected).abs() < 1e-5 * largest,
                 "{row:?} {expected}"
@@ -1108,7 +1112,8 @@ fn outputs_are_filtered_whatever_rows_are_shown() {
     assert!(rows.lines().nth(1).unwrap().ends_with("NaN"), "{rows}");
 }
 
-/// The filters of SAE J211-1 pass slightly less, both in a run and in its recording, by an option and by the key of a model.
+/// The filters of SAE J211-1 pass slightly less, both in a run and in its recording, by an option and by the key of a
+/// model.
 #[test]
 fn criteria_have_the_filters_of_either_standard() {
     let directory = directory();
@@ -1227,7 +1232,8 @@ fn criteria_that_a_model_cannot_have_are_refused() {
     );
 }
 
-/// The velocity after 20 ms of a free body under a pulse: 10 g at its middle, so ∫ = 10 g 10 ms, whatever separators and units its file has.
+/// The velocity after 20 ms of a free body under a pulse: 10 g at its middle, so ∫ = 10 g 10 ms, whatever separators
+/// and units its file has.
 #[test]
 fn curves_have_the_units_of_their_headings() {
     let directory = directory();
@@ -1330,7 +1336,8 @@ fn curves_have_the_units_of_their_headings() {
         let error = refused(curve, table);
         assert!(error.contains(told), "{table}: {error}");
     }
-    // 1.2 s at 10 kHz: A sin(π t/1.2 s) with vibrations that the sum over whole periods does not keep; points that are left out are said
+    // 1.2 s at 10 kHz: A sin(π t/1.2 s) with vibrations that the sum over whole periods does not keep; points that are
+    // left out are said
     let many: String = (0..=12_000)
         .map(|i| {
             let t = f64::from(i) * 1e-4;
@@ -1342,8 +1349,8 @@ fn curves_have_the_units_of_their_headings() {
         .collect();
     let pulse = format!("time [s],ax [m/s^2]\n{many}");
     let found = run("{ file: pulse.csv }", &pulse);
-    // ∫ 200 sin² over one period of 20 ms is 2; 60 periods of the vibration add nothing. The points of the vibration are 3.3 in a period,
-    // and lines between the points that stay are off by the error that is said
+    // ∫ 200 sin² over one period of 20 ms is 2; 60 periods of the vibration add nothing. The points of the vibration
+    // are 3.3 in a period, and lines between the points that stay are off by the error that is said
     let (_, told) = call(path, &["run", "p.yaml", "--no-files"], 0);
     assert!(told.contains("has 12001 points in its file"), "{told}");
     let said: f64 = told
@@ -1363,7 +1370,8 @@ fn curves_have_the_units_of_their_headings() {
     assert!(told.contains("has 12001 points in its file"), "{told}");
 }
 
-/// A curve from a channel equals the one from the same numbers in a text file, whatever the unit of the channel and its spelling.
+/// A curve from a channel equals the one from the same numbers in a text file, whatever the unit of the channel and its
+/// spelling.
 #[test]
 fn pulses_come_from_channels_of_tests() {
     let directory = directory();

@@ -71,9 +71,9 @@ fn pulse(stretch: f64, times: f64, slopes: Option<[f64; 4]>) -> (Vec<Piece>, [f6
     (pieces.collect(), [times * PULSE[3][1], after])
 }
 
-/// Slopes of the smooth pulse in N/s: 0 at its extrema, and at the ends those of parabolas. Left: secants 175 and −183⅓ over 20 and 30 ms,
-/// (70·175 + 20·183⅓)/50 = 318⅓. Right: secants 75 and −183⅓ over 40 and 30 ms, (110·75 + 40·183⅓)/70 = 222.6…, just less than three times
-/// the secant.
+/// Slopes of the smooth pulse in N/s: 0 at its extrema, and at the ends those of parabolas. Left: secants 175 and −183⅓
+/// over 20 and 30 ms, (70·175 + 20·183⅓)/50 = 318⅓. Right: secants 75 and −183⅓ over 40 and 30 ms, (110·75 +
+/// 40·183⅓)/70 = 222.6…, just less than three times the secant.
 const SMOOTH: [f64; 4] = [
     (70.0 * 175.0 + 20.0 * 550.0 / 3.0) / 50.0,
     0.0,
@@ -89,9 +89,9 @@ fn curves_of_time_move_masses_exactly() {
             let (q, v) = state.split_at(12);
             let check = |what: &str, index: usize, (pieces, last): (Vec<Piece>, [f64; 2])| {
                 let [x, speed] = follow(&pieces, last, t);
-                // Between the points the solution is a polynomial of degree 3, or 5 for the smooth curve. The method of order 5 errs only
-                // by rounding if every step ends on the points; within a step the interpolation of order 4 is exact for degree 3, too. A
-                // hundred steps, a dozen roundings each.
+                // Between the points the solution is a polynomial of degree 3, or 5 for the smooth curve. The method of
+                // order 5 errs only by rounding if every step ends on the points; within a step the interpolation of
+                // order 4 is exact for degree 3, too. A hundred steps, a dozen roundings each.
                 let bound = 1200.0 * f64::EPSILON;
                 for (ours, expected) in [(q[index], x), (v[index], speed)] {
                     assert!(

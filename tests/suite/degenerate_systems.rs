@@ -1,5 +1,5 @@
-//! Systems without a freedom of their own: welded, carried by a vehicle or moved as given, following, alone in a model and beside others, with forces and
-//! outputs, in every command. Each works, or is refused with its place and a remedy.
+//! Systems without a freedom of their own: welded, carried by a vehicle or moved as given, following, alone in a model
+//! and beside others, with forces and outputs, in every command. Each works, or is refused with its place and a remedy.
 
 use super::command_call::bryant;
 use super::share::share;

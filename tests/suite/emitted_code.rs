@@ -1,10 +1,11 @@
 //! Compiled equations against the interpreted graph: only this test finds errors that are only in the emitted code.
 //!
-//! Both compute the same expressions in different arrangements, so they differ by rounding, by c·κ·ε. κ·ε is measured at every state as the
-//! scatter of the interpreted values when every operation, input and constant errs randomly by up to ε (`bryant_tests::rounding`). c is the
-//! factor from eight samples to a largest error. For a normal distribution with deviation σ, the difference of two evaluations exceeds 6.5
-//! σ once in 10⁵, and the largest of eight samples is below 0.3 σ equally rarely, hence c = 20. A rounding error is at most ε/2, which
-//! leaves a factor of two for longer chains of operations.
+//! Both compute the same expressions in different arrangements, so they differ by rounding, by c·κ·ε. κ·ε is measured
+//! at every state as the scatter of the interpreted values when every operation, input and constant errs randomly by up
+//! to ε (`bryant_tests::rounding`). c is the factor from eight samples to a largest error. For a normal distribution
+//! with deviation σ, the difference of two evaluations exceeds 6.5 σ once in 10⁵, and the largest of eight samples is
+//! below 0.3 σ equally rarely, hence c = 20. A rounding error is at most ε/2, which leaves a factor of two for longer
+//! chains of operations.
 
 use crate::users::functions;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -60,8 +61,8 @@ impl Point {
     }
 }
 
-/// States around the start of a run: near it, where contacts touch and belts tighten, and far from it. Parameters have their defaults, or
-/// random values within their bounds, or within a factor of a half if they have no bounds.
+/// States around the start of a run: near it, where contacts touch and belts tighten, and far from it. Parameters have
+/// their defaults, or random values within their bounds, or within a factor of a half if they have no bounds.
 fn points(model: &Model, equations: &Equations, entry: &Entry) -> Vec<Point> {
     let mut random = Random::new(entry.info.name.bytes().map(u64::from).sum());
     let mut points = Vec::new();
@@ -292,8 +293,8 @@ fn check(compiled: &Compiled) {
         let accelerations = &ours[start..];
         assert_eq!(accelerations, v_dot, "{name}: two ways to the same method");
 
-        // The other route rounds differently, by the condition of S, for the same forces; the rounding of the forces themselves is in the
-        // scatter.
+        // The other route rounds differently, by the condition of S, for the same forces; the rounding of the forces
+        // themselves is in the scatter.
         let Some(by_other) = &mut by_other else {
             continue;
         };

@@ -1,8 +1,8 @@
 //! The balance of energy, dT/dt = Σ P, as an identity of the equations at any state of every model.
 //!
-//! dT/dt = Σ ∂T/∂q q̇ + Σ ∂T/∂v v̇ + ∂T/∂t is derived from the kinetic energy only, and the powers from the forces. So the test finds a
-//! force whose work differs from its power, that acts at a wrong point, or that has no reaction. Both sides are sums of the same size, so
-//! they agree within the rounding of their terms.
+//! dT/dt = Σ ∂T/∂q q̇ + Σ ∂T/∂v v̇ + ∂T/∂t is derived from the kinetic energy only, and the powers from the forces. So
+//! the test finds a force whose work differs from its power, that acts at a wrong point, or that has no reaction. Both
+//! sides are sums of the same size, so they agree within the rounding of their terms.
 //!
 //! And as the balance of runs: the gap at the end is the loss of the integrator, at most its tolerance in each step.
 
@@ -14,8 +14,9 @@ use bryant_runtime::{Formula, Integrator, Tolerances};
 use bryant_tests::models::MODELS;
 use std::ops::ControlFlow;
 
-/// The tolerance is relative to coordinates, and the energy of a spring is quadratic in a difference of coordinates, which in these models
-/// is at least a tenth of their size (the ball of `bounce`, 0.1 m above the origin, sinks in by 1 cm).
+/// The tolerance is relative to coordinates, and the energy of a spring is quadratic in a difference of coordinates,
+/// which in these models is at least a tenth of their size (the ball of `bounce`, 0.1 m above the origin, sinks in by 1
+/// cm).
 const AMPLIFICATION: f64 = 2.0 * 10.0;
 
 #[test]

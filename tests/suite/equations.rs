@@ -251,7 +251,8 @@ fn instrumented(mut tree: ReferenceTree) -> ReferenceTree {
     tree
 }
 
-/// q, v and charts for a state of a reference tree, in the coordinates of the model; every other element is in the second chart.
+/// q, v and charts for a state of a reference tree, in the coordinates of the model; every other element is in the
+/// second chart.
 fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
     let (model, state) = (&tree.model, &tree.states[index]);
     let layout = Layout::of(model);
@@ -281,8 +282,8 @@ fn in_coordinates(tree: &ReferenceTree, index: usize) -> (Vec<f64>, Vec<f64>, Ve
     (q, v, m)
 }
 
-/// Bryant angles of a quaternion in a chart, and their rates for ω in absolute axes: from A = Rx Ry Rz, followed in the second chart by a
-/// rotation about y by −90°, and from ω = W φ̇ with W inverted numerically.
+/// Bryant angles of a quaternion in a chart, and their rates for ω in absolute axes: from A = Rx Ry Rz, followed in the
+/// second chart by a rotation about y by −90°, and from ω = W φ̇ with W inverted numerically.
 fn bryant_of(quaternion: &[f64], omega: &[f64], chart: usize) -> ([f64; 3], [f64; 3]) {
     let &[w, x, y, z] = quaternion else {
         panic!("a quaternion")
@@ -388,7 +389,8 @@ fn elimination_solves_the_system() {
     }
 }
 
-/// Geometries in which constants of an element vanish or coincide, so that it is eliminated in fewer steps or in another way.
+/// Geometries in which constants of an element vanish or coincide, so that it is eliminated in fewer steps or in
+/// another way.
 #[test]
 fn elimination_solves_the_system_where_geometry_is_special() {
     type Change = fn(usize, &mut Element);
@@ -604,7 +606,8 @@ fn values_of(equations: &Equations, q: &[f64], v: &[f64]) -> Vec<f64> {
 
 /// The same trees in quaternions and in Bryant angles of any charts, at the same orientations and angular velocities.
 ///
-/// ω = W φ̇ and α = W φ̈ + ε with ε = Ẇ φ̇ turn S α = r_s + r_k into Bᵀ S B φ̈ = Bᵀ (r_s − S ε) + Bᵀ r_k, with B = diag(1, W₁, W₂, …).
+/// ω = W φ̇ and α = W φ̈ + ε with ε = Ẇ φ̇ turn S α = r_s + r_k into Bᵀ S B φ̈ = Bᵀ (r_s − S ε) + Bᵀ r_k, with B =
+/// diag(1, W₁, W₂, …).
 #[test]
 fn both_charts_are_of_the_motion_in_quaternions() {
     let mut random = Random::new(8);

@@ -12,8 +12,8 @@ use bryant_runtime::program::Job;
 use bryant_runtime::{Formula, Integrator, Tolerances};
 use std::sync::Arc;
 
-/// The models, with their numbers of scenes: bundled models with contacts, belts, joints with stops, switches and states of force laws.
-/// Parameters are drawn from their whole bounds, or from half to twice their defaults.
+/// The models, with their numbers of scenes: bundled models with contacts, belts, joints with stops, switches and
+/// states of force laws. Parameters are drawn from their whole bounds, or from half to twice their defaults.
 const SCENES: [(&str, usize); 3] = [("sled-pendulum", 600), ("elbow", 300), ("child-seat", 100)];
 /// The promise of a run without options for every output.
 const PROMISED: f64 = 1e-3;

@@ -10,7 +10,8 @@ use bryant_tests::runs::run;
 
 const TOLERANCE: f64 = 1e-10;
 
-/// The table of figure 5: time \[ms\], lap belt and contact 2 \[N\], head acceleration \[m/s²\], head excursion \[m\], as printed.
+/// The table of figure 5: time \[ms\], lap belt and contact 2 \[N\], head acceleration \[m/s²\], head excursion \[m\],
+/// as printed.
 const FIGURE_5: [[f64; 5]; 16] = [
     [0.0, 0.0, 0.0, 0.0, 0.0],
     [2.0, 0.0, 0.0, 0.0, 0.0],
@@ -72,7 +73,8 @@ fn field_and_way(curve: &Curve, t: f64) -> [f64; 2] {
     [field, x]
 }
 
-/// The child without belts and contacts: only the fields act, equally on all elements, and each of them moves as a point does.
+/// The child without belts and contacts: only the fields act, equally on all elements, and each of them moves as a
+/// point does.
 fn floating() -> Model {
     let bundled = find("child-seat").expect("a bundled model");
     let mut model = bryant::bundled::model(bundled).expect("the model reads");

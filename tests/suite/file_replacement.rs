@@ -1,4 +1,5 @@
-//! Files that are there already: those that the program wrote are replaced, others are not, and no command writes to what it reads.
+//! Files that are there already: those that the program wrote are replaced, others are not, and no command writes to
+//! what it reads.
 
 use super::command_call::call;
 use super::{PENDULUM, directory};

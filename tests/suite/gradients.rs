@@ -1,4 +1,5 @@
-//! Derivatives of responses across events: switches that parameters move, and points of curves of time that parameters stretch.
+//! Derivatives of responses across events: switches that parameters move, and points of curves of time that parameters
+//! stretch.
 
 use super::lanes::engine;
 use bryant_runtime::batch::rows::{Asked, Gradients, Job};
@@ -61,9 +62,10 @@ fn differentiated(
     found
 }
 
-/// The ball of `models/switches.yaml` is pushed with 3 m/s² from the ignition until it is high, where its speed is 2 m/s. It begins to fall
-/// at 0.68 s, and 4/6 s earlier for each second by which the upward push begins later: the push takes 4 of 10 m/s² away. The motion
-/// consists of polynomials of the second degree, which the integrator follows exactly.
+/// The ball of `models/switches.yaml` is pushed with 3 m/s² from the ignition until it is high, where its speed is 2
+/// m/s. It begins to fall at 0.68 s, and 4/6 s earlier for each second by which the upward push begins later: the push
+/// takes 4 of 10 m/s² away. The motion consists of polynomials of the second degree, which the integrator follows
+/// exactly.
 #[test]
 fn a_switched_force_is_differentiated_by_both_of_its_ends() {
     let window = 0.05;
@@ -99,8 +101,8 @@ fn a_switched_force_is_differentiated_by_both_of_its_ends() {
     ];
     for (k, (value, slopes)) in expected.into_iter().enumerate() {
         let name = responses[k];
-        // events are located to 1e-13 of a step; rates at them come from differences of 1e-4 of a step on a parabola, with rounding divided
-        // by that
+        // events are located to 1e-13 of a step; rates at them come from differences of 1e-4 of a step on a parabola,
+        // with rounding divided by that
         let bound = 1e-9;
         let ours = found.values[k];
         assert!(
@@ -118,7 +120,8 @@ fn a_switched_force_is_differentiated_by_both_of_its_ends() {
     }
 }
 
-/// The joint of a link moves with a piecewise linear speed, so that its acceleration jumps at the points; a parameter stretches the curve.
+/// The joint of a link moves with a piecewise linear speed, so that its acceleration jumps at the points; a parameter
+/// stretches the curve.
 #[test]
 fn points_of_curves_that_a_parameter_stretches_are_events() {
     let (duration, span) = (1.0, 1.25);
@@ -139,7 +142,8 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
         &responses,
     );
 
-    // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: its slopes are 7.5, −10, 3.25, and at 0.8 it is −0.025
+    // twice the curve from 0.5 by 2 at 0.2 and −1 at 0.5 to 0.3 at 0.9, at t/span: its slopes are 7.5, −10, 3.25, and
+    // at 0.8 it is −0.025
     let x = duration / span;
     let speed = |x: f64| -1.0 + 3.25 * (x - 0.5);
     let area = 0.5 * 0.2 * 2.5 + 0.5 * 0.3 * 1.0 + 0.5 * (x - 0.5) * (speed(x) - 1.0);
@@ -151,7 +155,8 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     ];
     for (k, (value, slope)) in known.into_iter().enumerate() {
         let [ours, rises] = [found.values[k], found.slopes[k]];
-        // motions are given in closed form: rounding, and the error of an event's time divided by the step that locates it
+        // motions are given in closed form: rounding, and the error of an event's time divided by the step that locates
+        // it
         assert!(
             (ours - value).abs() < 1e-9,
             "{:?}: {ours}, not {value}",
@@ -164,7 +169,8 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
         );
     }
 
-    // the swing of the link has no closed form: differences err by the square of the step, and by 1e-13 divided by it, times some hundred
+    // the swing of the link has no closed form: differences err by the square of the step, and by 1e-13 divided by it,
+    // times some hundred
     let step = 1e-5;
     let at = |by: f64| {
         differentiated(
@@ -187,7 +193,8 @@ fn points_of_curves_that_a_parameter_stretches_are_events() {
     }
 }
 
-/// A point that a parameter stretches ends a step, and may be at the time of a sample: the end of the step moves, the sample does not.
+/// A point that a parameter stretches ends a step, and may be at the time of a sample: the end of the step moves, the
+/// sample does not.
 #[test]
 fn samples_at_points_that_are_stretched_stay_where_they_are() {
     let responses = [0.25, 0.4, 0.625, 0.8].map(|at| ("jolted rate", Response::Value { at }));
@@ -198,8 +205,8 @@ fn samples_at_points_that_are_stretched_stay_where_they_are() {
     let found = differentiated(LINKS, 1.0, pace, &parameters, &responses);
     for (k, response) in responses.iter().enumerate() {
         let (ours, expected) = (found.slopes[k], exact.slopes[k]);
-        // a pendulum of 6/s: (ωh)⁵, and the error of the sharp run; the link accelerates by some rad/s², so a shift of the sample by 0.2 s
-        // per unit would be visible
+        // a pendulum of 6/s: (ωh)⁵, and the error of the sharp run; the link accelerates by some rad/s², so a shift of
+        // the sample by 0.2 s per unit would be visible
         let bound = 1e-8 * expected.abs().max(1.0);
         assert!(
             (ours - expected).abs() < bound,

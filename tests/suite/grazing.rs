@@ -4,7 +4,8 @@ use super::command_call::call;
 use super::json;
 use std::path::Path;
 
-/// φ = A cos(10 t + p). From the time when φ passes `level` upwards, a moment of 5 N·m acts: φ then swings about 0.05 instead of 0.
+/// φ = A cos(10 t + p). From the time when φ passes `level` upwards, a moment of 5 N·m acts: φ then swings about 0.05
+/// instead of 0.
 const SWING: &str = "\
 model: swing
 dimension: 2

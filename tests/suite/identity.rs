@@ -1,7 +1,8 @@
-//! Balances as identities of the equations: the rate of a quantity, differentiated along the motion, has the required value.
+//! Balances as identities of the equations: the rate of a quantity, differentiated along the motion, has the required
+//! value.
 //!
-//! Both are sums of the same size, so they agree within the rounding of their terms: 10 κ ε of the accelerations, measured as their
-//! scatter.
+//! Both are sums of the same size, so they agree within the rounding of their terms: 10 κ ε of the accelerations,
+//! measured as their scatter.
 
 use crate::users::functions;
 use bryant_generator::dynamics::{Options, derive_with};

@@ -36,7 +36,8 @@ fn cart(forces: &str) -> Engine {
     read(&format!("{CART}{forces}")).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// Runs a model; before each of the times, `control` is given the outputs and sets the inputs. The outputs at the last time.
+/// Runs a model; before each of the times, `control` is given the outputs and sets the inputs. The outputs at the last
+/// time.
 fn driven<'e>(
     engine: &'e Engine,
     tolerance: f64,
@@ -88,7 +89,8 @@ fn inputs_are_held_between_two_advances() {
     };
     let (mut x, mut v, mut before) = (0.0, 0.0, 0.0);
     let found = driven(&engine, 1e-6, &times, |k, outputs| {
-        // polynomials of the second degree, which the method follows exactly: a few roundings a step of numbers up to 10
+        // polynomials of the second degree, which the method follows exactly: a few roundings a step of numbers up to
+        // 10
         let bound = 100.0 * f64::EPSILON * (k + 1) as f64;
         assert!((outputs[0] - x).abs() <= bound, "{k}: {outputs:?} {x}");
         assert!((outputs[1] - v).abs() <= bound, "{k}: {outputs:?} {v}");

@@ -1,8 +1,9 @@
-//! The laws do not depend on the place of the scene: every planar model, rotated by a right angle about y and moved, has the same
-//! accelerations, rotated, and every effect has the same power.
+//! The laws do not depend on the place of the scene: every planar model, rotated by a right angle about y and moved,
+//! has the same accelerations, rotated, and every effect has the same power.
 //!
-//! A right angle maps (x, z) to (z, −x) exactly, so that curves of components are exchanged and the rotation rounds nothing. Only positions
-//! further from the origin are rounded, and this is measured as the scatter of both evaluations.
+//! A right angle maps (x, z) to (z, −x) exactly, so that curves of components are exchanged and the rotation rounds
+//! nothing. Only positions further from the origin are rounded, and this is measured as the scatter of both
+//! evaluations.
 
 use bryant::evaluation::functions;
 use bryant_generator::dynamics::{Options, derive_with};
@@ -63,7 +64,8 @@ fn move_attachment(attachment: &mut Attachment) {
     }
 }
 
-/// The scene elsewhere; `None` if a law depends on absolute angles, or is a user function that cannot be evaluated here.
+/// The scene elsewhere; `None` if a law depends on absolute angles, or is a user function that cannot be evaluated
+/// here.
 fn elsewhere(model: &Model) -> Option<Model> {
     let mut model = model.clone();
     if model.dimension != Dimension::Plane || !model.vehicles.is_empty() {

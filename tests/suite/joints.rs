@@ -233,8 +233,8 @@ fn rates_are_those_of_their_angles() {
                 (turn - 2.0 * PI * (turn / (2.0 * PI)).round()) / (2.0 * h)
             };
             for i in (0..outputs.len()).step_by(2) {
-                // central differences err by h²: the error of the finer one is a third of its difference from the coarser one, plus
-                // rounding
+                // central differences err by h²: the error of the finer one is a third of its difference from the
+                // coarser one, plus rounding
                 let (coarse, fine) = (slope(2e-5, i), slope(1e-5, i));
                 let bound = (coarse - fine).abs() + 1e-9;
                 close(

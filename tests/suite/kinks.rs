@@ -1,9 +1,10 @@
-//! Every kink of every force law is known: if the derivative is not smooth along a line through the state, a switching function or an event
-//! function changes its sign, or time passes a breakpoint.
+//! Every kink of every force law is known: if the derivative is not smooth along a line through the state, a switching
+//! function or an event function changes its sign, or time passes a breakpoint.
 //!
-//! Along the line y + s ẏ, with memory held, the second difference of ẏ over a grid of width h is h² ẏ″ in smooth parts. At a kink it is
-//! about h times the jump of the slope, in the one or two differences that contain the kink. A second difference that is many times larger
-//! than its neighbours cannot come from the smooth part on a grid that resolves it, so it is a kink.
+//! Along the line y + s ẏ, with memory held, the second difference of ẏ over a grid of width h is h² ẏ″ in smooth
+//! parts. At a kink it is about h times the jump of the slope, in the one or two differences that contain the kink. A
+//! second difference that is many times larger than its neighbours cannot come from the smooth part on a grid that
+//! resolves it, so it is a kink.
 
 use crate::share::share;
 use bryant_generator::law::ForceKind;
@@ -21,10 +22,11 @@ use std::path::Path;
 const STATES: usize = 40;
 /// Number of cells of the grid on a line, which reaches as far as the next state.
 const CELLS: usize = 800;
-/// A second difference at a kink is this many times larger than its neighbours: hundreds of cells lie between two samples, so the smooth
-/// part changes little from one cell to the next.
+/// A second difference at a kink is this many times larger than its neighbours: hundreds of cells lie between two
+/// samples, so the smooth part changes little from one cell to the next.
 const STICKS_OUT: f64 = 30.0;
-/// A jump below this share of the largest rate of the run is not seen: a thousand times the rounding of equations with condition 10³.
+/// A jump below this share of the largest rate of the run is not seen: a thousand times the rounding of equations with
+/// condition 10³.
 const UNSEEN: f64 = 1e6 * f64::EPSILON;
 
 /// Kinks that are the only sign of a non-smooth effect in some model.
@@ -141,7 +143,8 @@ fn look(entry: &Entry, direction: impl Fn(&mut Random, &[f64]) -> Vec<f64>) -> S
         let largest = largest(&rates).max(of_run);
         for k in 0..moving {
             let second = second_differences(&rates, k);
-            // second[j] contains the points j to j + 2; a kink in the cell from c to c + 1 is in second[c − 1] and second[c]
+            // second[j] contains the points j to j + 2; a kink in the cell from c to c + 1 is in second[c − 1] and
+            // second[c]
             for c in 4..second.len() - 4 {
                 let here = second[c - 1].max(second[c]);
                 let beside = [c - 4, c - 3, c - 2, c + 1, c + 2, c + 3];

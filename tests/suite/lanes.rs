@@ -1,5 +1,5 @@
-//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, which for fixed steps agrees to
-//! the last bit.
+//! Models in lanes: the same bits in registers of every width, and the motion of the ordinary time loop, which for
+//! fixed steps agrees to the last bit.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -15,9 +15,9 @@ use std::path::Path;
 
 /// Tolerance of the runs in lanes.
 const TOLERANCE: f64 = 1e-9;
-/// Tolerance of the single runs for comparison, a tenth of that in lanes. The lanes may differ from them by as much as a single run with a
-/// hundred times their tolerance does. Errors fall like the tolerance, to a hundredth, or at worst, at kinks, like its root, to a tenth.
-/// The rest is for the scatter at kinks, where no two runs are alike.
+/// Tolerance of the single runs for comparison, a tenth of that in lanes. The lanes may differ from them by as much as
+/// a single run with a hundred times their tolerance does. Errors fall like the tolerance, to a hundredth, or at worst,
+/// at kinks, like its root, to a tenth. The rest is for the scatter at kinks, where no two runs are alike.
 const FINE: f64 = 0.1 * TOLERANCE;
 const COARSE: f64 = 100.0 * TOLERANCE;
 /// Events are located to this share of a step, and a step is at most as long as the run.
@@ -183,8 +183,9 @@ fn the_motion_of_a_single_run(path: &str, duration: f64, continuous: &[&str]) {
         let (_, samples) = engine.series(&job, row, &outputs).unwrap();
         for (k, fine) in fine.iter().enumerate() {
             let ours = &samples[k * 101..(k + 1) * 101];
-            // If the motion is a polynomial, only rounding remains, one of the state for each evaluation, and the effect of events that
-            // come slightly early or late: they change the rate of an output by at most twice the largest rate.
+            // If the motion is a polynomial, only rounding remains, one of the state for each evaluation, and the
+            // effect of events that come slightly early or late: they change the rate of an output by at most twice the
+            // largest rate.
             let largest = apart(fine, &vec![0.0; fine.len()]);
             let rounded = report.evaluations as f64 * f64::EPSILON * largest;
             let rate = 100.0 * apart(&fine[1..], &fine[..fine.len() - 1]) / duration;
@@ -233,8 +234,8 @@ fn the_same_rows_by_rust(path: &str, entry: RowsEntry) {
     assert!(ours.rows.iter().all(|row| row.status == Status::Done));
 }
 
-/// The tests of the engine compare single evaluations. Over all registers and their dual numbers, the compiler takes long for a large model: with
-/// `--cfg bryant_nightly` there is one.
+/// The tests of the engine compare single evaluations. Over all registers and their dual numbers, the compiler takes
+/// long for a large model: with `--cfg bryant_nightly` there is one.
 #[test]
 fn rows_of_generated_rust_have_the_bits_of_the_engine() {
     let entry = RowsEntry::of::<bryant_generated::sled_pendulum::Mechanism<f64>>();
@@ -308,8 +309,8 @@ impl OfAnyWidth for Single<'_> {
     }
 }
 
-/// Rows with fixed steps, each beside a twin with steps twice as long, with one failing row among them, against single runs: the numbers of
-/// steps and the outputs at the end agree to the last bit.
+/// Rows with fixed steps, each beside a twin with steps twice as long, with one failing row among them, against single
+/// runs: the numbers of steps and the outputs at the end agree to the last bit.
 fn fixed_steps_are_those_of_a_single_run(path: &str, duration: f64, step: f64) {
     let engine = engine(path);
     let info = engine.info();

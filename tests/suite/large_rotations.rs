@@ -1,4 +1,5 @@
-//! Bushings and joints in space that turn far: the law of the whole rotation against its closed form, and the jump at ±180°, which is said.
+//! Bushings and joints in space that turn far: the law of the whole rotation against its closed form, and the jump at
+//! ±180°, which is said.
 
 use super::command_call::call;
 use super::{directory, json};
@@ -38,7 +39,8 @@ fn run(here: &Path, scene: &str, code: i32) -> (Value, String) {
     (json(&stdout), stderr)
 }
 
-/// J φ̈ = −k φ with J = 0.01 kg m² and k = 2 N m/rad: φ = 30/√200 sin √200 t rad, up to 121.5°. By symmetry it is so about any axis.
+/// J φ̈ = −k φ with J = 0.01 kg m² and k = 2 N m/rad: φ = 30/√200 sin √200 t rad, up to 121.5°. By symmetry it is so
+/// about any axis.
 #[test]
 fn the_whole_rotation_swings_about_any_axis_alike() {
     let directory = directory();
@@ -135,8 +137,8 @@ fn a_torque_that_jumps_at_half_a_turn_is_no_result() {
     }
 }
 
-/// Where the angle about y goes through ±90°, those about x and z leap by half a turn: that is one thing, not three. The same at the middle angle of another
-/// order, and an angle about x alone still goes through ±180° by itself.
+/// Where the angle about y goes through ±90°, those about x and z leap by half a turn: that is one thing, not three.
+/// The same at the middle angle of another order, and an angle about x alone still goes through ±180° by itself.
 #[test]
 fn what_leaps_with_the_middle_angle_is_told_once() {
     let directory = directory();

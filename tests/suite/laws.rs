@@ -1,7 +1,8 @@
 //! Force laws against the closed forms of `reference/contact.yaml`.
 //!
-//! The error of a run is at most steps · tolerance times the amplification of the mechanism. In these mechanisms, a coordinate with the
-//! error e causes a velocity error ω e and vice versa, where ω is the largest rate of the mechanism: steps · tolerance · max(ω, 1).
+//! The error of a run is at most steps · tolerance times the amplification of the mechanism. In these mechanisms, a
+//! coordinate with the error e causes a velocity error ω e and vice versa, where ω is the largest rate of the
+//! mechanism: steps · tolerance · max(ω, 1).
 
 use bryant_tests::models;
 use bryant_tests::runs::{Recording, run};
@@ -76,7 +77,8 @@ fn a_sliding_block_stops_after_its_stopping_distance() {
         let run = run(&entry, &[("mu", mu)], TOLERANCE);
         let deceleration = mu * G;
         let (x, v) = (run.column("x"), run.column("vx"));
-        // Below the tolerance speed it no longer brakes fully: from there it travels v_tol²/(μ g) instead of half of that.
+        // Below the tolerance speed it no longer brakes fully: from there it travels v_tol²/(μ g) instead of half of
+        // that.
         let ideal = speed * speed / (2.0 * deceleration);
         let creep = tolerance_speed * tolerance_speed / (2.0 * deceleration);
         let error = integration(&run, deceleration / tolerance_speed);
@@ -136,9 +138,9 @@ fn an_ellipse_rocks_with_its_frequency() {
     let entry = models::rocking::ENTRY;
     let (m, a, c, inertia, angle) = (2.0, 0.3, 0.2, 0.065, 1e-3);
     let frequency = |inertia: f64| f64::sqrt(m * G * (a * a - c * c) / (c * inertia));
-    // A swing of amplitude θ₀ is slower than a small one by a share proportional to θ₀². One part comes from the lever arm h' = c α sin θ
-    // cos θ/√(1 + α sin² θ), which decreases by (2/3 + α/2) θ²; another from the centre, which rises with it: m h'² = m c² α² θ² in
-    // addition to I. α = a²/c² − 1.
+    // A swing of amplitude θ₀ is slower than a small one by a share proportional to θ₀². One part comes from the lever
+    // arm h' = c α sin θ cos θ/√(1 + α sin² θ), which decreases by (2/3 + α/2) θ²; another from the centre, which rises
+    // with it: m h'² = m c² α² θ² in addition to I. α = a²/c² − 1.
     let alpha = a * a / (c * c) - 1.0;
     let swing = angle * angle * (1.0 + alpha + m * c * c * alpha * alpha / inertia);
     let check = |parameters: &[(&str, f64)], omega: f64, slip: f64| {
@@ -157,7 +159,8 @@ fn an_ellipse_rocks_with_its_frequency() {
     };
     check(&[], frequency(inertia), 0.0);
 
-    // Rolling: friction below its tolerance speed is a damper of μ m g/v_tol, whose slip is the share ω v_tol/(μ g) of the motion.
+    // Rolling: friction below its tolerance speed is a damper of μ m g/v_tol, whose slip is the share ω v_tol/(μ g) of
+    // the motion.
     let (mu, tolerance_speed) = (10.0, 0.01);
     let omega = frequency(inertia + m * c * c);
     let slip = omega * tolerance_speed / (mu * G);

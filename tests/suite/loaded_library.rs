@@ -1,5 +1,5 @@
-//! Code that is compiled as a library and loaded: user functions over every scalar, equal to the last bit to the generated Rust; models
-//! compiled by rustc; and user functions that misbehave.
+//! Code that is compiled as a library and loaded: user functions over every scalar, equal to the last bit to the
+//! generated Rust; models compiled by rustc; and user functions that misbehave.
 //!
 //! Each test is a process of its own, because some of them end it.
 

@@ -50,8 +50,8 @@ fn interrupt(child: &Child) {
     assert!(killed.success());
 }
 
-/// Waits until standard error contains a text, presses Ctrl-C, and expects the end of an interrupted command. Standard output must fit into
-/// a pipe.
+/// Waits until standard error contains a text, presses Ctrl-C, and expects the end of an interrupted command. Standard
+/// output must fit into a pipe.
 fn interrupted_when(directory: &Path, arguments: &[&str], said: &str) -> (String, String) {
     let mut child = begin(directory, arguments);
     let mut messages = BufReader::new(child.stderr.take().unwrap());
@@ -73,8 +73,8 @@ fn interrupted_when(directory: &Path, arguments: &[&str], said: &str) -> (String
     expect(output, arguments, 130)
 }
 
-/// A line of progress appears after the time between lines, with the simulated time, its total, and the time left. The table and the file have the
-/// same samples up to the time in the message, and not those of the whole run.
+/// A line of progress appears after the time between lines, with the simulated time, its total, and the time left. The
+/// table and the file have the same samples up to the time in the message, and not those of the whole run.
 #[test]
 fn a_run_that_is_interrupted_keeps_its_samples() {
     let directory = directory();
@@ -155,8 +155,8 @@ fn effects_are_in_the_order_of_their_cost() {
     );
 }
 
-/// Rows with times appear while others are still being timed. After Ctrl-C the others appear without times, with a message about their
-/// number.
+/// Rows with times appear while others are still being timed. After Ctrl-C the others appear without times, with a
+/// message about their number.
 #[test]
 fn effects_appear_as_they_are_timed() {
     let directory = directory();

@@ -274,8 +274,8 @@ fn a_large_mesh_is_shown_by_fewer_triangles() {
     assert!(page < 1_000_000, "{page}");
 }
 
-/// The links of a robot are shown by the meshes of its description, in their frames: the second joint is turned by 90° about y, so that the mesh of its link leads along
-/// z of it, which is x of the robot.
+/// The links of a robot are shown by the meshes of its description, in their frames: the second joint is turned by 90°
+/// about y, so that the mesh of its link leads along z of it, which is x of the robot.
 #[test]
 fn links_are_shown_by_their_visual_meshes() {
     let directory = directory();
@@ -445,7 +445,8 @@ run: { duration: 10 ms, every: 5 ms }
     assert_eq!(glb(&path.join("long.glb"))["meshes"], json["meshes"]);
 }
 
-/// Boxes, spheres, cylinders and capsules of a robot are shown as long as they are, where they are; what they say in YAML is the same.
+/// Boxes, spheres, cylinders and capsules of a robot are shown as long as they are, where they are; what they say in
+/// YAML is the same.
 #[test]
 fn links_are_shown_by_their_shapes() {
     let directory = directory();

@@ -1,7 +1,9 @@
-//! The balance of momentum, ṗ = Σ F and L̇ = Σ (r × F + M), as an identity of the equations at any state of every model.
+//! The balance of momentum, ṗ = Σ F and L̇ = Σ (r × F + M), as an identity of the equations at any state of every
+//! model.
 //!
-//! The rates are derived from the momenta and the accelerations, the external wrench from the forces only. So the test finds a force
-//! without a reaction, at a wrong point, or with a moment of its own. See [`crate::identity`] for the accuracy.
+//! The rates are derived from the momenta and the accelerations, the external wrench from the forces only. So the test
+//! finds a force without a reaction, at a wrong point, or with a moment of its own. See [`crate::identity`] for the
+//! accuracy.
 
 use crate::identity::Balance;
 use bryant_generator::expression::NodeId;

@@ -1,8 +1,8 @@
 //! Motion against closed forms and reference solutions.
 //!
-//! Comparisons use the error theory of one-step methods: each accepted step errs by at most the tolerance, and an error grows until the
-//! time of comparison by the amplification of the motion itself, which is measured by a run from a disturbed state. So: error ≤ steps ·
-//! tolerance · amplification · size of the state.
+//! Comparisons use the error theory of one-step methods: each accepted step errs by at most the tolerance, and an error
+//! grows until the time of comparison by the amplification of the motion itself, which is measured by a run from a
+//! disturbed state. So: error ≤ steps · tolerance · amplification · size of the state.
 
 use bryant_runtime::simulate::{Integrator, Settings, simulate_from};
 use bryant_runtime::{Formula, Model, Tolerances, Vector};
@@ -274,7 +274,8 @@ fn springs_about_the_three_angles_of_a_joint_conserve_energy() {
                 .sum::<f64>()
     };
     let first = &motion.outputs[0];
-    // as for free trees: errors of the steps times a mass of 3 kg, a lever arm of 0.3 m and a rate of 5 rad/s; stiffnesses up to 6
+    // as for free trees: errors of the steps times a mass of 3 kg, a lever arm of 0.3 m and a rate of 5 rad/s;
+    // stiffnesses up to 6
     let bound = motion.steps * TOLERANCE * (3.0 * 0.3 * 5.0 + 6.0);
     for (&t, outputs) in motion.times.iter().zip(&motion.outputs) {
         close("energy", t, energy(outputs), energy(first), bound);
@@ -297,8 +298,9 @@ fn free_trees_conserve_energy_and_momentum() {
     fn check<M: Model<f64>>() {
         let motion = run::<M>(0.1, 2.0, TOLERANCE, 0.0);
         for k in 0..motion.times.len() {
-            // The motion cannot amplify errors of a conserved quantity: the errors of the steps add up, times the derivative of the
-            // quantity with respect to the state: at most a mass of 6.5 kg, a lever arm of 3 m and a speed of 5 m/s.
+            // The motion cannot amplify errors of a conserved quantity: the errors of the steps add up, times the
+            // derivative of the quantity with respect to the state: at most a mass of 6.5 kg, a lever arm of 3 m and a
+            // speed of 5 m/s.
             let size = motion.states[k].iter().fold(1.0f64, |m, x| m.max(x.abs()));
             let bound = motion.steps * TOLERANCE * size * 6.5 * 3.0 * 5.0;
             for (i, (now, before)) in motion.outputs[k].iter().zip(&motion.outputs[0]).enumerate() {
@@ -314,7 +316,8 @@ fn free_trees_conserve_energy_and_momentum() {
     }
     check::<models::free_tree::Mechanism<f64>>();
     check::<models::free_tree_bryant::Mechanism<f64>>();
-    // both are the same motion, each within its own bound; the tolerance is smaller because this motion amplifies errors
+    // both are the same motion, each within its own bound; the tolerance is smaller because this motion amplifies
+    // errors
     let (quaternion, bounds) =
         run_with_tolerance::<models::free_tree::Mechanism<f64>>(0.1, 2.0, 1e-13);
     let (bryant, bounds_bryant) =

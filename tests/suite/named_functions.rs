@@ -1,4 +1,5 @@
-//! The functions that are asked for by name: identities on every bundled model, numbers of Pinocchio, and the same bits from every target.
+//! The functions that are asked for by name: identities on every bundled model, numbers of Pinocchio, and the same bits
+//! from every target.
 
 mod bits;
 mod contacts;

@@ -1,4 +1,5 @@
-//! The number of operations in one evaluation of the accelerations, as `bryant check` prints it; a fused multiply-add counts as two.
+//! The number of operations in one evaluation of the accelerations, as `bryant check` prints it; a fused multiply-add
+//! counts as two.
 //!
 //! Counts are the same on every machine. The bounds are goals, not measurements: the snapshots have the actual counts.
 
@@ -64,7 +65,8 @@ const ARM_OF_6: &str = "
       - { name: hand, on: wrist-2, at: [0, 0, -0.09465], joint: { hinge: y }, mass: 0.1879, cg: [0, 0, 0], inertia: [0.0171364731454, 0.0171364731454, 0.033822] }
 ";
 
-/// An arm with seven hinges, each perpendicular to the one before and intersecting it, like a KUKA LBR iiwa; the bodies have any shape.
+/// An arm with seven hinges, each perpendicular to the one before and intersecting it, like a KUKA LBR iiwa; the bodies
+/// have any shape.
 fn arm_of_7() -> String {
     let mut random = Random::new(8);
     let mut text = String::new();
@@ -173,9 +175,9 @@ fn with_adjustable_masses(mut model: Model) -> Model {
     model
 }
 
-/// A body with constant masses is eliminated in its own axes, one with parameters in absolute axes: two derivations of the same motion.
-/// Both solve S v̇ = r, so they differ by c·κ(S)·ε; κ(S) is below 1e6 for these trees (masses 0.5 to 5 kg, lengths up to 0.4 m, moments
-/// from 1e-4 kg m² on), and c = 10 as in the comparison of elimination with Cholesky.
+/// A body with constant masses is eliminated in its own axes, one with parameters in absolute axes: two derivations of
+/// the same motion. Both solve S v̇ = r, so they differ by c·κ(S)·ε; κ(S) is below 1e6 for these trees (masses 0.5 to 5
+/// kg, lengths up to 0.4 m, moments from 1e-4 kg m² on), and c = 10 as in the comparison of elimination with Cholesky.
 #[test]
 fn numbers_and_parameters_give_the_same_accelerations() {
     let mut random = Random::new(6);

@@ -366,8 +366,8 @@ fn parts_of_a_car_hold_who_meets_them() {
         let knee = super::tables::largest(&usual, "knee");
         assert!(knee > 0.0);
         assert!(super::tables::largest(&usual, "seat") > 0.0);
-        // the column gives way and does not go beyond its end. What stays is what its unloading at 2 MN/m does not give back: 20 mm of 40 kN at
-        // most
+        // the column gives way and does not go beyond its end. What stays is what its unloading at 2 MN/m does not give
+        // back: 20 mm of 40 kN at most
         let most = super::tables::largest(&usual, "column");
         let set = super::tables::largest(&usual, "set");
         assert!((0.01..0.13).contains(&most), "{most}");
@@ -435,7 +435,8 @@ fn last_row(path: &Path, scene: &str) -> Vec<f64> {
     values.map(|value| value.as_f64().unwrap()).collect()
 }
 
-/// A ball joint whose laws are about turns in an order moves as one hinge after the other in that order, with the same laws.
+/// A ball joint whose laws are about turns in an order moves as one hinge after the other in that order, with the same
+/// laws.
 #[test]
 fn laws_in_an_order_are_those_of_hinges_in_that_order() {
     let directory = directory();
@@ -499,8 +500,8 @@ run: {{ duration: 0.6 s, every: 0.1 s }}
     }
 }
 
-/// The neck of a bundled person nods by more than 90° backwards, with a little tilt, as 49 CFR 572.33 wants of a dummy (81° to 106°); the law has no
-/// singular angle there, so that the steps stay long.
+/// The neck of a bundled person nods by more than 90° backwards, with a little tilt, as 49 CFR 572.33 wants of a dummy
+/// (81° to 106°); the law has no singular angle there, so that the steps stay long.
 #[test]
 fn a_neck_passes_ninety_degrees_of_extension() {
     let directory = directory();
@@ -541,7 +542,8 @@ run: {{ duration: 150 ms, every: 1 ms }}
     assert!(evaluations < 20_000, "{evaluations}");
 }
 
-/// A person whose head, arms and shanks meet nothing has a head, arms and shanks in pictures, on the page and in the animation.
+/// A person whose head, arms and shanks meet nothing has a head, arms and shanks in pictures, on the page and in the
+/// animation.
 #[test]
 fn all_ellipsoids_of_a_person_are_drawn() {
     let directory = directory();

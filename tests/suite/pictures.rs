@@ -158,7 +158,8 @@ forces: [{ field: gravity, acceleration: [0, -10] }]
 run: { duration: 2 s, every: 1 s }
 ";
 
-/// With a vehicle the view moves: a passenger at rest in it stands still in the picture, and the headings say how far it has gone.
+/// With a vehicle the view moves: a passenger at rest in it stands still in the picture, and the headings say how far
+/// it has gone.
 #[test]
 fn a_picture_moves_with_the_vehicle() {
     let scene = "model: scene

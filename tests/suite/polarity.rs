@@ -1,5 +1,5 @@
-//! Channels of dummies have the signs of SAE J211-1: each is held against manipulations by hand, as in the table of SAE J1733, whatever the axes of the
-//! model are. No expected sign follows from a formula of the program: the hand says it.
+//! Channels of dummies have the signs of SAE J211-1: each is held against manipulations by hand, as in the table of SAE
+//! J1733, whatever the axes of the model are. No expected sign follows from a formula of the program: the hand says it.
 
 use super::command_call::call;
 use super::directory;
@@ -18,7 +18,8 @@ fn combined(factors: Vector, directions: [Vector; 3]) -> Vector {
     [0, 1, 2].map(|i| (0..3).map(|k| factors[k] * directions[k][i]).sum())
 }
 
-/// A person who stands: up in the frames of its elements, where the model says what is forward; and both in absolute axes at the start.
+/// A person who stands: up in the frames of its elements, where the model says what is forward; and both in absolute
+/// axes at the start.
 struct Standing {
     up: Vector,
     anatomy: &'static str,
@@ -49,7 +50,8 @@ fn people() -> Vec<Standing> {
         person(Z, "", "angles: { ROOT: [180 deg, 0, 0] }", [X, minus(Z)]),
         // lies on the back
         person(Z, "", "angles: { ROOT: [0, -90 deg, 0] }", [Z, minus(X)]),
-        // frames that are turned: those of somebody who faces -x, of a lateral scene, of a program with z forward and x down, of one with z down
+        // frames that are turned: those of somebody who faces -x, of a lateral scene, of a program with z forward and x
+        // down, of one with z down
         person(Z, "anatomy: { forward: -x }", "", [minus(X), Z]),
         person(Z, "anatomy: { forward: y }", "", [Y, Z]),
         person(
@@ -104,8 +106,9 @@ fn first_row(path: &Path, text: &str) -> Vec<f64> {
 
 const HEADER: &str = "model: hand\ndimension: 3\nrun: { duration: 1 ms, every: 1 ms }\n";
 
-/// What a hand does to the head, in parts forward, left and up, one row for each channel: head rearward, leftward, upward; left ear toward the left shoulder,
-/// chin toward the sternum, chin toward the left shoulder. The first three are forces, the others moments.
+/// What a hand does to the head, in parts forward, left and up, one row for each channel: head rearward, leftward,
+/// upward; left ear toward the left shoulder, chin toward the sternum, chin toward the left shoulder. The first three
+/// are forces, the others moments.
 const MANIPULATIONS: [Vector; 6] = [
     [-1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -196,7 +199,8 @@ fn a_femur_that_is_pushed_is_negative() {
     }
 }
 
-/// A blow to the back, to the left side and on the top is positive; so is a turn about each axis of the standard by the right hand.
+/// A blow to the back, to the left side and on the top is positive; so is a turn about each axis of the standard by the
+/// right hand.
 #[test]
 fn sensors_have_the_signs_of_blows() {
     let directory = directory();
@@ -245,7 +249,8 @@ fn a_mirror_image_has_its_own_axes() {
     }
 }
 
-/// Rates, angles and displacements: nodding forward turns against y, a body that rises moves against z, one that goes to the right along y.
+/// Rates, angles and displacements: nodding forward turns against y, a body that rises moves against z, one that goes
+/// to the right along y.
 #[test]
 fn motions_have_the_axes_of_the_standard() {
     let directory = directory();
@@ -319,7 +324,8 @@ fn criterion<'v>(judged: &'v Value, name: &str) -> &'v Value {
     all.iter().find(|one| one["criterion"] == name).unwrap()
 }
 
-/// A braked torso: the head flies forward, so the neck pulls, and bends forward. A pushed one: the head lags, and the neck bends back.
+/// A braked torso: the head flies forward, so the neck pulls, and bends forward. A pushed one: the head lags, and the
+/// neck bends back.
 #[test]
 fn a_head_that_nods_is_judged_as_what_it_does() {
     let directory = directory();
@@ -495,7 +501,8 @@ fn what_would_have_a_wrong_sign_is_refused() {
     assert!(text.contains("tension and flexion"), "{text}");
 }
 
-/// Of a body like a Hybrid III the joint of the head is at C7/T1, and its accelerometer at the centre of gravity of head and neck.
+/// Of a body like a Hybrid III the joint of the head is at C7/T1, and its accelerometer at the centre of gravity of
+/// head and neck.
 #[test]
 fn a_head_with_its_neck_has_no_upper_load_cell() {
     let directory = directory();
@@ -540,7 +547,8 @@ fn a_head_with_its_neck_has_no_upper_load_cell() {
     assert!(judged.contains("at C7/T1"), "{judged}");
 }
 
-/// The torques of the neck are 0 in the posture, unless they are wanted upright; in space and in the plane, by a model and by the command.
+/// The torques of the neck are 0 in the posture, unless they are wanted upright; in space and in the plane, by a model
+/// and by the command.
 #[test]
 fn the_neutral_angles_of_a_person_are_those_of_the_posture() {
     let directory = directory();
@@ -572,7 +580,8 @@ fn the_neutral_angles_of_a_person_are_those_of_the_posture() {
     assert!(!human(&["--neutral", "upright"]).contains("neutral: 25 deg"));
 }
 
-/// An acceleration in a field other than gravity is read by no instrument: it is refused where it is judged, and said where it is a response.
+/// An acceleration in a field other than gravity is read by no instrument: it is refused where it is judged, and said
+/// where it is a response.
 #[test]
 fn what_no_instrument_reads_is_not_judged() {
     let directory = directory();

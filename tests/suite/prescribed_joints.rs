@@ -3,7 +3,8 @@
 use crate::motion::{close, run_with_bound};
 use bryant_tests::models::{loads, prescribed};
 
-/// Velocity and displacement at the end of a ramp of acceleration from a to b, of length h: exact, because the acceleration is linear.
+/// Velocity and displacement at the end of a ramp of acceleration from a to b, of length h: exact, because the
+/// acceleration is linear.
 fn ramp([x, v]: [f64; 2], [a, b]: [f64; 2], h: f64) -> [f64; 2] {
     [
         x + v * h + (2.0 * a + b) * h * h / 6.0,
@@ -11,8 +12,8 @@ fn ramp([x, v]: [f64; 2], [a, b]: [f64; 2], h: f64) -> [f64; 2] {
     ]
 }
 
-/// Position and velocity at t from those at 0; the acceleration goes through points, and after the last point continues with a slope. The
-/// first point is not after 0.
+/// Position and velocity at t from those at 0; the acceleration goes through points, and after the last point continues
+/// with a slope. The first point is not after 0.
 fn follow(start: [f64; 2], points: &[[f64; 2]], slope: f64, t: f64) -> [f64; 2] {
     let mut state = start;
     for pair in points.windows(2) {

@@ -78,7 +78,8 @@ pub(crate) fn scaled(curve: usize, times: f64, stretch: f64) -> ScaledCurve {
     }
 }
 
-/// Checks that S and r_s + r_k of a model are those of Lagrange's equations, at random states and times between `from` and 1.2 s.
+/// Checks that S and r_s + r_k of a model are those of Lagrange's equations, at random states and times between `from`
+/// and 1.2 s.
 pub(crate) fn compare_with_lagrange(random: &mut Random, model: &Model) {
     let options = Options {
         matrices: true,

@@ -1,4 +1,5 @@
-//! What `bryant check` and `bryant run` say of mistakes, most of which leave a model valid, and that they do not say it of others.
+//! What `bryant check` and `bryant run` say of mistakes, most of which leave a model valid, and that they do not say it
+//! of others.
 
 use super::command_call::call;
 use super::directory;
@@ -167,7 +168,8 @@ fn friction_that_takes_for_ever_to_hold_is_said_before_the_run() {
     assert_eq!(warnings(path, &of("0.01 m/s")), [""; 0]);
 }
 
-/// The belt alone ties the man to the sled as well; a body that is said to rest is left alone, and so is a slow one on a conveyor.
+/// The belt alone ties the man to the sled as well; a body that is said to rest is left alone, and so is a slow one on
+/// a conveyor.
 #[test]
 fn a_body_is_left_behind_by_what_ties_it() {
     let directory = directory();
@@ -268,7 +270,8 @@ outputs: [{ name: foam, of: contact foam, what: force, component: [x, z] }]
 run: { duration: 80 ms, every: 0.5 ms }
 ";
 
-/// Over 10 mm the push is 3/2 E/width = 12.6 kN of 4.2 kN (E = 84 J at 60 mm); over the 90 mm of the curve it stays below 3/4 of the force.
+/// Over 10 mm the push is 3/2 E/width = 12.6 kN of 4.2 kN (E = 84 J at 60 mm); over the 90 mm of the curve it stays
+/// below 3/4 of the force.
 #[test]
 fn an_edge_pushes_less_than_the_surface_or_says_so() {
     let directory = directory();

@@ -74,7 +74,8 @@ fn forces_of_a_report_are_those_of_the_outputs() {
     }
 }
 
-/// The curves have the peaks of the run, which lie between rows, and each curve stands in one plot with the bodies that it belongs to.
+/// The curves have the peaks of the run, which lie between rows, and each curve stands in one plot with the bodies that
+/// it belongs to.
 #[test]
 fn curves_of_a_report_have_the_peaks_of_the_run() {
     let directory = tempfile::tempdir().unwrap();

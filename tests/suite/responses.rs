@@ -182,8 +182,8 @@ fn what_cannot_be_read_off_a_run_is_refused_before_it() {
     );
 }
 
-/// 1 kg that oscillates on 10⁸ N/m, by half of its static depth, and is lifted off before the run ends. Its amplitude of 49 nm is five tolerances, and
-/// neither its first row nor its last shows what has become of it.
+/// 1 kg that oscillates on 10⁸ N/m, by half of its static depth, and is lifted off before the run ends. Its amplitude
+/// of 49 nm is five tolerances, and neither its first row nor its last shows what has become of it.
 const LIFTED: &str = "\
 model: lifted
 dimension: 2
@@ -242,7 +242,8 @@ fn a_response_that_is_not_accurate_makes_the_run_sharper() {
 fn a_response_of_what_is_nothing_does_not_count() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    // the horizontal velocity of a ball that falls vertically is rounding, and its speed at rest shrinks with the tolerance
+    // the horizontal velocity of a ball that falls vertically is rounding, and its speed at rest shrinks with the
+    // tolerance
     let still = LIFTED.replace("1.5 * 9.81e-8", "9.81e-8");
     let fixed = still.replace("[0.15, -9.81], [0.16, 100]", "[1, -9.81]");
     let text = fixed.replace(

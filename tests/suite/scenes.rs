@@ -4,7 +4,8 @@ use super::tables::{column, largest, run};
 
 #[test]
 fn the_driver_begins_at_rest_and_is_held() {
-    // accelerometers at rest read gn; a reel of 1 N pulls the chest of 12 kg with at most 2 N, and only its tension is not in balance
+    // accelerometers at rest read gn; a reel of 1 N pulls the chest of 12 kg with at most 2 N, and only its tension is
+    // not in balance
     let (still, _) = run("frontal", &["--set", "slack=1 N", "--duration", "1 ms"]);
     let at_start = column(&still, "chest acceleration resultant")[0];
     assert!((at_start - 9.80665).abs() < 2.0 / 12.0, "{at_start}");
@@ -24,8 +25,8 @@ fn the_driver_begins_at_rest_and_is_held() {
     assert!(largest(&bare, "head excursion") > largest(&held, "head excursion"));
 }
 
-/// The sled of the belt is in the corridor of the regulation, the manikin begins at rest and is held within the limits, and each device has
-/// its effect.
+/// The sled of the belt is in the corridor of the regulation, the manikin begins at rest and is held within the limits,
+/// and each device has its effect.
 #[test]
 fn the_belt_holds_its_manikin_within_the_corridor() {
     let (still, _) = run(
@@ -49,8 +50,8 @@ fn the_belt_holds_its_manikin_within_the_corridor() {
     assert!(largest(&stiff, pelvis) < largest(&held, pelvis));
 }
 
-/// Searle and Searle (SAE 831622, 1983): a pedestrian who is thrown at the speed v and slides with μ comes to rest between v²/(2 μ g) and
-/// (1 + μ²) v²/(2 μ g).
+/// Searle and Searle (SAE 831622, 1983): a pedestrian who is thrown at the speed v and slides with μ comes to rest
+/// between v²/(2 μ g) and (1 + μ²) v²/(2 μ g).
 #[test]
 fn the_pedestrian_is_thrown_as_far_as_published_bounds_say() {
     let long = [
@@ -113,7 +114,8 @@ fn the_child_restraint_keeps_its_limits() {
     assert!(largest(&below, head) > largest(&held, head));
 }
 
-/// The infant begins at rest and stays in its cot; straps, cover and padding have the effects in docs/applications/carrycot.md.
+/// The infant begins at rest and stays in its cot; straps, cover and padding have the effects in
+/// docs/applications/carrycot.md.
 #[test]
 fn the_carrycot_holds_its_infant() {
     let (still, _) = run("carrycot", &["--set", "pulse=0", "--duration", "20 ms"]);
@@ -141,7 +143,8 @@ fn the_carrycot_holds_its_infant() {
     assert!(bent(&bare) > bent(&held));
 }
 
-/// The same as [`the_pedestrian_is_thrown_as_far_as_published_bounds_say`], in the plane; his head comes down faster than the car's speed.
+/// The same as [`the_pedestrian_is_thrown_as_far_as_published_bounds_say`], in the plane; his head comes down faster
+/// than the car's speed.
 #[test]
 fn the_pedestrian_in_the_plane_is_thrown_as_far_too() {
     let long = ["--duration", "4 s", "--every", "10 ms", "--no-verify"];

@@ -1,14 +1,15 @@
 //! child-seat against scipy's DOP853 and Radau: these integrators share neither code nor error control with ours.
 //!
-//! `reference/child_seat_scipy.py` made the solutions and documents this. It also gives the growth G of errors, for each entry of the state
-//! and each output at each sample: the largest error there after a single step has erred in every entry by 1 + |y|. An integrator that errs
-//! in each of n steps by τ (1 + |y|) is off by at most n τ G. Ours allows this in every entry; scipy allows a root mean square of it over N
-//! entries, so √N times as much in one entry. No number here was printed by a run.
+//! `reference/child_seat_scipy.py` made the solutions and documents this. It also gives the growth G of errors, for
+//! each entry of the state and each output at each sample: the largest error there after a single step has erred in
+//! every entry by 1 + |y|. An integrator that errs in each of n steps by τ (1 + |y|) is off by at most n τ G. Ours
+//! allows this in every entry; scipy allows a root mean square of it over N entries, so √N times as much in one entry.
+//! No number here was printed by a run.
 //!
-//! **Kinks that are passed.** The error estimate of a step over a kink is a difference that depends on the position of the kink in the
-//! step, and this dependence has zeros. At a random position, such an estimate is too small by a factor F with a probability of about 1/F;
-//! for that of DOP853, e₅²/√(e₅² + 0.01 e₃²), with 1/√F. Among K kinks, the most hidden one errs like K steps, or K² for DOP853. K is the
-//! count of a run that locates kinks.
+//! **Kinks that are passed.** The error estimate of a step over a kink is a difference that depends on the position of
+//! the kink in the step, and this dependence has zeros. At a random position, such an estimate is too small by a factor
+//! F with a probability of about 1/F; for that of DOP853, e₅²/√(e₅² + 0.01 e₃²), with 1/√F. Among K kinks, the most
+//! hidden one errs like K steps, or K² for DOP853. K is the count of a run that locates kinks.
 
 use bryant_generated::find;
 use bryant_runtime::program::Job;

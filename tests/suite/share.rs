@@ -1,6 +1,7 @@
 //! A random share of a long sweep, so that each run of the tests tries other cases in a fraction of the time.
 //!
-//! `BRYANT_TESTS=all` tries all cases, as `.ci/nightly` does. A failed test prints its seed; `BRYANT_SEED=…` tries the same share again.
+//! `BRYANT_TESTS=all` tries all cases, as `.ci/nightly` does. A failed test prints its seed; `BRYANT_SEED=…` tries the
+//! same share again.
 
 use std::env;
 use std::time::{SystemTime, UNIX_EPOCH};

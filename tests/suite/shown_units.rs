@@ -1,4 +1,5 @@
-//! Units in which outputs are shown: what is shown is the same run, and criteria and files of other standards are as before.
+//! Units in which outputs are shown: what is shown is the same run, and criteria and files of other standards are as
+//! before.
 
 use super::command_call::call;
 use super::{directory, json};
@@ -150,7 +151,8 @@ fn a_unit_of_another_quantity_is_refused() {
     assert!(error.contains("cannot be shown in \"Hz\""), "{error}");
 }
 
-/// Criteria are judged and files of ISO-MME are written in the units of their standards: nothing there knows the units of the outputs.
+/// Criteria are judged and files of ISO-MME are written in the units of their standards: nothing there knows the units
+/// of the outputs.
 #[test]
 fn criteria_and_files_of_tests_do_not_depend_on_units() {
     let directory = directory();
@@ -399,7 +401,8 @@ fn derivatives_and_parameters_are_shown_in_units() {
     );
 }
 
-/// Criteria that are formed of several outputs are in the unit of these, and so many runs keep their limits in any unit.
+/// Criteria that are formed of several outputs are in the unit of these, and so many runs keep their limits in any
+/// unit.
 #[test]
 fn studies_judge_alike_in_any_unit() {
     let directory = tempfile::tempdir().unwrap();

@@ -1,6 +1,8 @@
-//! The size of the program: tokens of its sources by crate, which formatting, comments and names do not change, against `tests/size.txt`.
+//! The size of the program: tokens of its sources by crate, which formatting, comments and names do not change, against
+//! `tests/size.txt`.
 //!
-//! Product is what is compiled into the command or into a user's crate, with the C and the pages that it prints; tests are counted apart, and may grow.
+//! Product is what is compiled into the command or into a user's crate, with the C and the pages that it prints; tests
+//! are counted apart, and may grow.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use std::collections::{BTreeMap, BTreeSet};
@@ -60,6 +62,28 @@ fn files(of: &Path) -> Vec<PathBuf> {
     all.retain(|path| path.exists());
     all.sort();
     all
+}
+
+/// Rows of tables cannot be broken.
+#[test]
+fn no_comment_is_wider_than_120_columns() {
+    let all = CRATES.iter().flat_map(|name| files(&root().join(name)));
+    let rust = all.filter(|path| path.extension().is_some_and(|e| e == "rs"));
+    let (mut seen, mut wide) = (0, Vec::new());
+    for path in rust {
+        for (index, line) in fs::read_to_string(&path).unwrap().lines().enumerate() {
+            let Some(comment) = line.trim_start().strip_prefix("//") else {
+                continue;
+            };
+            seen += 1;
+            let row = comment.trim_start_matches(['/', '!', ' ']).starts_with('|');
+            if line.chars().count() > 120 && !row {
+                wide.push(format!("{}:{}", path.display(), index + 1));
+            }
+        }
+    }
+    assert!(seen > 10_000, "only {seen} lines of comments were found");
+    assert!(wide.is_empty(), "{wide:#?}");
 }
 
 /// Whether a file is a test by its place or its name.
@@ -192,7 +216,8 @@ impl Size {
     }
 }
 
-/// Tokens of C, JavaScript, CSS and HTML: names, numbers and each sign between them, without comments. A string is as many tokens as it has words.
+/// Tokens of C, JavaScript, CSS and HTML: names, numbers and each sign between them, without comments. A string is as
+/// many tokens as it has words.
 fn words(text: &str) -> usize {
     let mut count = 0;
     let mut rest = text;

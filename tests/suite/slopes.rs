@@ -1,4 +1,5 @@
-//! `bryant gradient` across events: what an event does not touch keeps its derivatives, and what has no derivative is said.
+//! `bryant gradient` across events: what an event does not touch keeps its derivatives, and what has no derivative is
+//! said.
 
 use super::command_call::call;
 use super::{directory, json};
@@ -63,8 +64,8 @@ fn slopes(
     (slopes.collect(), stderr)
 }
 
-/// v = F (D − T)/m and x = F (D − T)²/2m after a push from T to D = 0.1 s, by T and by F; the other cart by F alone. So it is if both events happen at
-/// the same time.
+/// v = F (D − T)/m and x = F (D − T)²/2m after a push from T to D = 0.1 s, by T and by F; the other cart by F alone. So
+/// it is if both events happen at the same time.
 #[test]
 fn an_event_moves_what_it_touches_and_nothing_else() {
     let directory = directory();
@@ -119,8 +120,9 @@ fn differences_that_disagree_are_no_success() {
     );
 }
 
-/// One event that changes what another of the same time does has other derivatives on either side: the cart is pushed from both switches on, at first by
-/// `push`, and by as much again once the other fires, but only while the first pushes.
+/// One event that changes what another of the same time does has other derivatives on either side: the cart is pushed
+/// from both switches on, at first by `push`, and by as much again once the other fires, but only while the first
+/// pushes.
 #[test]
 fn events_of_the_same_time_that_meet_are_told_apart_or_said() {
     let directory = directory();
@@ -135,8 +137,8 @@ fn events_of_the_same_time_that_meet_are_told_apart_or_said() {
     );
 }
 
-/// The ball of one system falls from a height that is a parameter, the other from the same height that is not; their floors push back with damping at
-/// once, so that forces jump at the touch.
+/// The ball of one system falls from a height that is a parameter, the other from the same height that is not; their
+/// floors push back with damping at once, so that forces jump at the touch.
 #[test]
 fn balls_that_touch_at_the_same_time_are_two() {
     let directory = directory();

@@ -50,8 +50,9 @@ fn equations(yaml: &str) -> String {
     text(&equations.graph, &roots, &names)
 }
 
-/// With s = sin(φ_upper − φ_lower) and c = cos(φ_upper − φ_lower), the text has the equations of the textbooks for point masses m1, m2 on
-/// massless rods l1, l2 with absolute angles (Wells, *Lagrangian dynamics*; Goldstein, *Classical mechanics*, ch. 1):
+/// With s = sin(φ_upper − φ_lower) and c = cos(φ_upper − φ_lower), the text has the equations of the textbooks for
+/// point masses m1, m2 on massless rods l1, l2 with absolute angles (Wells, *Lagrangian dynamics*;
+/// Goldstein, *Classical mechanics*, ch. 1):
 ///
 /// (m1 + m2) l1² φ̈_upper + m2 l1 l2 c φ̈_lower = −m2 l1 l2 s φ̇_lower² − (m1 + m2) gravity l1 sin φ_upper
 /// m2 l1 l2 c φ̈_upper + m2 l2² φ̈_lower = m2 l1 l2 s φ̇_upper² − m2 gravity l2 sin φ_lower
@@ -75,14 +76,16 @@ forces:
     insta::assert_snapshot!("double_pendulum", text);
 }
 
-/// Two rods, one hanging from the other. Their moments of inertia are chosen such that those of the augmented bodies are the same about all
-/// axes: 4 and 2 kg m². Then, with b = 2 m kg and 1 m kg along −z of the element, and u = −z of the upper one times 1 m,
+/// Two rods, one hanging from the other. Their moments of inertia are chosen such that those of the augmented bodies
+/// are the same about all axes: 4 and 2 kg m². Then, with b = 2 m kg and 1 m kg along −z of the element, and u = −z of
+/// the upper one times 1 m,
 ///
-/// S_kk = J \[\[1, 0, sin φ₂\], \[0, 1, 0\], \[sin φ₂, 0, 1\]\], as of a spherical top in these angles (Wittenburg, ch. 2),
-/// S_jk = D_j(u)ᵀ D_k(w), the columns of D(v) being e₁ × v, e₂ × v, e₃ × v with e₁ = x, e₂ = Rx y, e₃ = Rx Ry z,
+/// S_kk = J \[\[1, 0, sin φ₂\], \[0, 1, 0\], \[sin φ₂, 0, 1\]\], as of a spherical top in these angles (Wittenburg,
+/// ch. 2), S_jk = D_j(u)ᵀ D_k(w), the columns of D(v) being e₁ × v, e₂ × v, e₃ × v with e₁ = x, e₂ = Rx y, e₃ = Rx Ry
+/// z,
 ///
-/// r_s has no term ω × Jω, but only J times the rates of the axes by φ̇, and the moments of the centripetal accelerations. r_k is (e_j ×
-/// w)·gravity, which is 0 for e₃: this axis is the rod.
+/// r_s has no term ω × Jω, but only J times the rates of the axes by φ̇, and the moments of the centripetal
+/// accelerations. r_k is (e_j × w)·gravity, which is 0 for e₃: this axis is the rod.
 #[test]
 fn two_rods_in_space_have_equations_that_fit_a_page() {
     let text = equations(
@@ -207,7 +210,8 @@ fn statistics(model: &Model, source: &str) -> String {
     text
 }
 
-/// Functions of an emitted text: name and number of lets. Methods are in an impl; their statements are indented by eight spaces.
+/// Functions of an emitted text: name and number of lets. Methods are in an impl; their statements are indented by
+/// eight spaces.
 fn functions(source: &str) -> impl Iterator<Item = (&str, usize)> {
     let starts = |line: &&str| {
         let line = line.trim_start();

@@ -88,8 +88,8 @@ fn somebody_on_a_seat_starts_without_a_jerk() {
     );
 }
 
-/// A scene of real size whose belts and seat do not hold its legs: in its state of rest a curve is exceeded, and no run from there could be
-/// trusted.
+/// A scene of real size whose belts and seat do not hold its legs: in its state of rest a curve is exceeded, and no run
+/// from there could be trusted.
 #[test]
 fn a_state_of_rest_that_cannot_be_trusted_is_refused() {
     let directory = directory();
@@ -161,7 +161,8 @@ fn a_ball_rests_in_a_corner_and_the_run_stays_there() {
         .skip(1)
         .map(|row| row.split(',').nth(1).unwrap().parse().unwrap())
         .collect();
-    // (√2 r − √2 d) above the corner, d = m g/(√2 k); 1e-6 g over ω² = k/m moves it by 5e-10 m, and a run is accurate to 0.1 % of 1 g/ω²
+    // (√2 r − √2 d) above the corner, d = m g/(√2 k); 1e-6 g over ω² = k/m moves it by 5e-10 m, and a run is accurate
+    // to 0.1 % of 1 g/ω²
     let exact = 2f64.sqrt() * (0.1 - 5.0 * 9.81 / (2f64.sqrt() * 1e5));
     assert!((heights[0] - exact).abs() < 1e-9, "{} {exact}", heights[0]);
     for height in &heights {
@@ -233,7 +234,8 @@ forces:
 run: { duration: 1 s, every: 0.1 s }
 ";
 
-/// A body that slides off has no state of rest near its start: within few stops the search says so, with the contact that does not hold it.
+/// A body that slides off has no state of rest near its start: within few stops the search says so, with the contact
+/// that does not hold it.
 #[test]
 fn what_slides_away_is_said_with_what_does_not_hold_it() {
     let directory = directory();
@@ -249,7 +251,8 @@ fn what_slides_away_is_said_with_what_does_not_hold_it() {
     ] {
         assert!(error.contains(said), "{said}\n{error}");
     }
-    // it slides into a trough, where it would rest: 0.1 m from both planes, at (0.4, 0.1 √2 − 0.4) from (0, 0.14), which is 0.565 m, less the dents
+    // it slides into a trough, where it would rest: 0.1 m from both planes, at (0.4, 0.1 √2 − 0.4) from (0, 0.14),
+    // which is 0.565 m, less the dents
     let trough = slides.replace(
         "run:",
         "  - { contact: stop, ellipsoid: { on: block/body, center: [0, 0], semi_axes: [0.1, 0.1] }, plane: { on: frame, at: [0.4, -0.4], normal: [-1, 1] }, stiffness: 100 kN/m, damping: 500 }\nrun:",

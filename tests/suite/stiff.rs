@@ -1,4 +1,5 @@
-//! Stiff scenes are simulated by themselves: the run changes its method, is checked, and is right. Each value follows from a formula.
+//! Stiff scenes are simulated by themselves: the run changes its method, is checked, and is right. Each value follows
+//! from a formula.
 
 use super::command_call::call;
 use super::json;
@@ -52,8 +53,8 @@ fn near(found: f64, expected: f64, size: f64) {
     );
 }
 
-/// 45 g between two pads with friction that holds: the bristles bend by weight over the friction that both pads have, 0.45 N of 16.8 N, times 0.05 mm, and
-/// by what slips while the pads close in. Then nothing creeps.
+/// 45 g between two pads with friction that holds: the bristles bend by weight over the friction that both pads
+/// have, 0.45 N of 16.8 N, times 0.05 mm, and by what slips while the pads close in. Then nothing creeps.
 #[test]
 fn what_is_held_by_friction_does_not_creep() {
     let z = output(&stiff(include_str!("stiff/pinch.yaml")), "z");
@@ -63,7 +64,8 @@ fn what_is_held_by_friction_does_not_creep() {
     near(middle, last, bent);
 }
 
-/// Eight links of a microgram carry a tonne on a straight line: a pendulum of 0.8 m, θ'' = −g/L sin θ, by the classical Runge–Kutta method.
+/// Eight links of a microgram carry a tonne on a straight line: a pendulum of 0.8 m, θ'' = −g/L sin θ, by the classical
+/// Runge–Kutta method.
 #[test]
 fn light_links_with_a_heavy_bob_swing_like_one_rod() {
     let run = stiff(include_str!("stiff/chain.yaml"));
@@ -92,7 +94,8 @@ fn light_links_with_a_heavy_bob_swing_like_one_rod() {
     }
 }
 
-/// Euler and Eytelwein: the tensions on both sides of the drum are in the ratio E = e^(μ π), and 10 kg pull 2 kg up with g (10 − 2E)/(10 + 2E).
+/// Euler and Eytelwein: the tensions on both sides of the drum are in the ratio E = e^(μ π), and 10 kg pull 2 kg up
+/// with g (10 − 2E)/(10 + 2E).
 #[test]
 fn a_rope_over_a_drum_keeps_the_ratio_of_its_friction() {
     let run = stiff(include_str!("stiff/capstan.yaml"));

@@ -1,14 +1,16 @@
-//! For a stiff model, the method for stiff models is by far the cheapest: a hand is pressed against a stop of 1e6 N·m/rad while the arm
-//! that carries it swings slowly (`models/joint-stop.yaml`).
+//! For a stiff model, the method for stiff models is by far the cheapest: a hand is pressed against a stop of 1e6
+//! N·m/rad while the arm that carries it swings slowly (`models/joint-stop.yaml`).
 //!
-//! Work is counted in evaluations of the derivative, not timed. A Jacobian takes an evaluation over dual numbers for each of the n entries
-//! of the state and one for the time. A product of dual numbers is three products and a sum, and a sine also needs its cosine: each of
-//! these evaluations counts as four. Each step, including rejected ones, factors a matrix and solves for eight stages, which takes n³/3 + 8
-//! n² products and as many sums; the accelerations of this model take 42 operations and 4 sines or cosines, at least 46.
+//! Work is counted in evaluations of the derivative, not timed. A Jacobian takes an evaluation over dual numbers for
+//! each of the n entries of the state and one for the time. A product of dual numbers is three products and a sum, and
+//! a sine also needs its cosine: each of these evaluations counts as four. Each step, including rejected ones, factors
+//! a matrix and solves for eight stages, which takes n³/3 + 8 n² products and as many sums; the accelerations of this
+//! model take 42 operations and 4 sines or cosines, at least 46.
 //!
-//! The error of an output is the largest over the samples, relative to its largest magnitude; the error of a run is the worst of its
-//! outputs. For explicit methods, the cheapest setting that happens to reach an accuracy counts. For the method for stiff models, the
-//! cheapest setting counts from which on all smaller tolerances reach it, too, because a user does not know the solution.
+//! The error of an output is the largest over the samples, relative to its largest magnitude; the error of a run is the
+//! worst of its outputs. For explicit methods, the cheapest setting that happens to reach an accuracy counts. For the
+//! method for stiff models, the cheapest setting counts from which on all smaller tolerances reach it, too, because a
+//! user does not know the solution.
 
 use bryant_runtime::simulate::{Integrator, Report, Settings};
 use bryant_runtime::{
@@ -205,10 +207,10 @@ fn steps_of_the_stiff_method_on_the_stop_are_100_times_longer() {
     }
 }
 
-/// A step may err in an angle by the tolerance, relative to its magnitude. The motion does not diverge, so some hundred such errors add up
-/// in the angles, as in any other run. In the rates there is ω_n times one error: the stop throws the hand back with no more than the speed
-/// that the error of an angle presses it in with, where ω_n² = k (M₁₁ + 2 M₁₂ + M₂₂)/(M₁₁ M₂₂ − M₁₂²), and the damping removes this before
-/// the next error.
+/// A step may err in an angle by the tolerance, relative to its magnitude. The motion does not diverge, so some hundred
+/// such errors add up in the angles, as in any other run. In the rates there is ω_n times one error: the stop throws
+/// the hand back with no more than the speed that the error of an angle presses it in with, where ω_n² = k (M₁₁ + 2
+/// M₁₂ + M₂₂)/(M₁₁ M₂₂ − M₁₂²), and the damping removes this before the next error.
 #[test]
 fn no_tolerance_lets_a_method_run_away_from_a_stop() {
     const SUM: f64 = 100.0;

@@ -1,8 +1,8 @@
 //! Switches fire at the times of closed forms, and forces that wait for them act from then on.
 //!
-//! The ball of `models/switches.yaml` moves with piecewise constant accelerations: polynomials of the second degree, which the integrator
-//! and its interpolant follow exactly. The error is rounding, of order ε for each step, and the width to which an event is located, 1e-13
-//! of a step, divided by the rate at which the quantity passes its threshold.
+//! The ball of `models/switches.yaml` moves with piecewise constant accelerations: polynomials of the second degree,
+//! which the integrator and its interpolant follow exactly. The error is rounding, of order ε for each step, and the
+//! width to which an event is located, 1e-13 of a step, divided by the rate at which the quantity passes its threshold.
 
 use bryant_runtime::program::{Entry, Job};
 use bryant_runtime::{Formula, Integrator};
@@ -21,8 +21,8 @@ fn last(run: &Recording, name: &str) -> f64 {
     column[column.len() - 1]
 }
 
-/// A bound on the rounding of a run over numbers of order 1: 8 roundings for each step, and the location of an event in a step, which is at
-/// most as long as the run of 1 s.
+/// A bound on the rounding of a run over numbers of order 1: 8 roundings for each step, and the location of an event in
+/// a step, which is at most as long as the run of 1 s.
 fn rounding(run: &Recording) -> f64 {
     8.0 * f64::EPSILON * run.steps + 1e-13
 }
@@ -59,7 +59,8 @@ fn switches_fire_by_time_height_speed_acceleration_and_switch() {
         .iter()
         .zip(run.column("on").into_iter().zip(run.column("high")))
     {
-        // the time of an event that has happened is known, otherwise it is −1; for an event at a sample, rounding decides
+        // the time of an event that has happened is known, otherwise it is −1; for an event at a sample, rounding
+        // decides
         if (t - 0.68).abs() <= bound {
             continue;
         }

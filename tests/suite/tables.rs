@@ -35,7 +35,8 @@ pub fn largest(columns: &[(String, Vec<f64>)], name: &str) -> f64 {
     column(columns, name).iter().copied().fold(0.0, f64::max)
 }
 
-/// A run of a bundled model, or of a model in a text, with options; it must be trusted. Returns its table, and its messages.
+/// A run of a bundled model, or of a model in a text, with options; it must be trusted. Returns its table, and its
+/// messages.
 pub fn run(model: &str, options: &[&str]) -> (Columns, String) {
     let directory = directory();
     let path = directory.path();

@@ -1,7 +1,7 @@
 //! The planar tree of `reference/tree2d.yaml`: S, right-hand side, accelerations, and the motion from there.
 //!
-//! The reference uses an x–y plane with counter-clockwise angles α. With z = y and φ = −α all vectors stay the same, and the rows and
-//! columns of the angles change sign: S = D S' D, r = D r', D = diag(1, 1, −1, −1, −1, −1).
+//! The reference uses an x–y plane with counter-clockwise angles α. With z = y and φ = −α all vectors stay the same,
+//! and the rows and columns of the angles change sign: S = D S' D, r = D r', D = diag(1, 1, −1, −1, −1, −1).
 
 use crate::motion::{at, close, run_with_bound};
 use bryant::evaluation::{self, State};

@@ -1,5 +1,5 @@
-//! Trust in runs: values that no law can have are refused, all other values give finite results, each law is that of its page, and a run is
-//! doubted only if there is a reason.
+//! Trust in runs: values that no law can have are refused, all other values give finite results, each law is that of
+//! its page, and a run is doubted only if there is a reason.
 
 mod doubts;
 mod law_combinations;

@@ -54,8 +54,8 @@ fn values(compiled: &Compiled, t: f64, state: &[f64]) -> Vec<(f64, f64)> {
     values.zip(scatter).collect()
 }
 
-/// Every kind of port has the same effect as the built-in force with the same law: in the plane by a function of this crate, in space by
-/// files beside the model. Both round differently: c κ ε, as in `compiled`.
+/// Every kind of port has the same effect as the built-in force with the same law: in the plane by a function of this
+/// crate, in space by files beside the model. Both round differently: c κ ε, as in `compiled`.
 #[test]
 fn functions_of_the_user_do_what_built_in_forces_do() {
     for (user, twin) in [
@@ -116,8 +116,8 @@ fn ours_taut(entry: &Entry) -> bool {
     true
 }
 
-/// v = v_t tanh(g t/v_t), v_t = √(2 m g/(ρ c_d A)), from rest. A step errs by at most the tolerance times the speed, and drag reduces
-/// errors.
+/// v = v_t tanh(g t/v_t), v_t = √(2 m g/(ρ c_d A)), from rest. A step errs by at most the tolerance times the speed,
+/// and drag reduces errors.
 #[test]
 fn a_falling_body_tends_to_its_terminal_velocity() {
     let entry = bundled::find("skydiver").expect("it is bundled").entry;
@@ -144,8 +144,8 @@ fn a_falling_body_tends_to_its_terminal_velocity() {
     }
 }
 
-/// In wind the body drifts. Relative to the air it falls as in still air, with the wind against it at the start, so it ends at the speed of
-/// the wind.
+/// In wind the body drifts. Relative to the air it falls as in still air, with the wind against it at the start, so it
+/// ends at the speed of the wind.
 #[test]
 fn the_wind_takes_the_body_along() {
     let entry = bundled::find("skydiver").expect("it is bundled").entry;
@@ -279,7 +279,8 @@ fn the_work_of_the_muscle_is_counted() {
     assert!(most > 1.0, "the muscle did work, {most} W");
 }
 
-/// One text serves all scalars: f32 agrees within its own rounding, c κ ε of the arguments and of the muscle's twenty operations.
+/// One text serves all scalars: f32 agrees within its own rounding, c κ ε of the arguments and of the muscle's twenty
+/// operations.
 #[test]
 fn a_function_of_the_user_computes_in_single_precision() {
     let compiled = bryant_tests::compiled_equations::Compiled {

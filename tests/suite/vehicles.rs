@@ -118,8 +118,8 @@ fn the_motion_of_a_vehicle_is_the_rate_of_its_positions() {
             let (p, v, a) = (now[axis], now[axis + 3], now[axis + 6]);
             let rate = (after[axis] - before[axis]) / (2.0 * H);
             let bend = (after[axis] - 2.0 * p + before[axis]) / (H * H);
-            // h²/6 of a third derivative below 1000, and rounding of a position below 3 over h; h²/12 of a fourth derivative below 10⁴, and
-            // rounding over h²
+            // h²/6 of a third derivative below 1000, and rounding of a position below 3 over h; h²/12 of a fourth
+            // derivative below 10⁴, and rounding over h²
             assert!(
                 (v - rate).abs() <= H * H / 6.0 * 1e3 + 8.0 * f64::EPSILON / H,
                 "v at {t}"
@@ -309,8 +309,9 @@ fn solve_their_equations(random: &mut Random, model: &Model) {
     }
 }
 
-/// The car: 9 − 0.72 m/s at 48 ms, with a deceleration of 30 m/s², and 0 after 8.28/30 s more; along z 0.3 − 0.04 m/s at 40 ms, and 0 after
-/// 0.26/2 s more. The pushed body: 0.5 m/s at 50 ms, 2.5 m/s at 150 and at 250 ms, and 0 after 2.5/20 s more.
+/// The car: 9 − 0.72 m/s at 48 ms, with a deceleration of 30 m/s², and 0 after 8.28/30 s more; along z 0.3 − 0.04 m/s
+/// at 40 ms, and 0 after 0.26/2 s more. The pushed body: 0.5 m/s at 50 ms, 2.5 m/s at 150 and at 250 ms, and 0
+/// after 2.5/20 s more.
 #[test]
 fn what_stops_stays_where_it_is() {
     let model = stops::Mechanism::<f64>::new(Default::default());

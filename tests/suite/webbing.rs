@@ -1,7 +1,7 @@
 //! Belts that pay out and take in webbing, against closed forms.
 //!
-//! As in `laws`, the error of a run is at most steps · tolerance, times the largest rate ω of the mechanism if a coordinate becomes a
-//! velocity. The location of an event errs by less: it uses the interpolant of a step.
+//! As in `laws`, the error of a run is at most steps · tolerance, times the largest rate ω of the mechanism if a
+//! coordinate becomes a velocity. The location of an event errs by less: it uses the interpolant of a step.
 
 use bryant_runtime::program::Entry;
 use bryant_tests::models;
@@ -40,7 +40,8 @@ fn a_limiter_absorbs_the_energy_that_it_is_given() {
     for limit in [3e3, 4e3, 6e3] {
         let run = run(&entry(), &[("limit", limit)], TOLERANCE);
         let error = integration(&run, omega);
-        // Up to F the webbing stores F ε_F ℓ/2. From there on the mass moves (1 + ε_F) for each metre paid out, against F.
+        // Up to F the webbing stores F ε_F ℓ/2. From there on the mass moves (1 + ε_F) for each metre paid out, against
+        // F.
         let strain = limit / stiffness;
         let stored = 0.5 * limit * strain * LENGTH;
         let energy = 0.5 * mass * speed * speed;
@@ -134,7 +135,8 @@ fn damping_begins_where_a_retractor_locks() {
     let k = run.at(lock);
     let tension = run.column("reel tension");
     assert_eq!(tension[k], 5.0);
-    // between two samples the tension grows at most by its largest rate: at full speed, with damping that fades in over 1 mm
+    // between two samples the tension grows at most by its largest rate: at full speed, with damping that fades in over
+    // 1 mm
     let steepest = (40e3 / LENGTH + damping * speed / stretch) * speed * 0.2e-3;
     let step = tension[k + 1] - tension[k];
     assert!(0.0 < step && step <= steepest, "{step} N of {steepest} N");

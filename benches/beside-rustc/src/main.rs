@@ -1,8 +1,9 @@
-//! The derivative of the state by the engine's machine code and by the generated Rust that rustc compiled: for one state and for eight
-//! lanes.
+//! The derivative of the state by the engine's machine code and by the generated Rust that rustc compiled: for one
+//! state and for eight lanes.
 //!
-//! `cd benches/beside-rustc && cargo run --release`. Both take turns, so that a disturbance of the processor slows both; the table has
-//! medians. The states are near those at the start, with small random changes, and the results of both have the same bits.
+//! `cd benches/beside-rustc && cargo run --release`. Both take turns, so that a disturbance of the processor slows
+//! both; the table has medians. The states are near those at the start, with small random changes, and the results of
+//! both have the same bits.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;

@@ -1,5 +1,5 @@
-//! The derivative of dummy15 for AArch64 as two symbols: `by_rustc`, which rustc compiled, and `by_engine`, which the engine's machine code is. `count`
-//! disassembles both and counts instructions.
+//! The derivative of dummy15 for AArch64 as two symbols: `by_rustc`, which rustc compiled, and `by_engine`, which the
+//! engine's machine code is. `count` disassembles both and counts instructions.
 
 bryant_runtime::include_model!("dummy15");
 

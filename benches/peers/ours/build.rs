@@ -1,7 +1,8 @@
-//! Writes the equations of the models, and their trees as JSON for the other engines: so all are built from one description.
+//! Writes the equations of the models, and their trees as JSON for the other engines: so all are built from one
+//! description.
 //!
-//! The trees are those of the model as it was resolved, in SI units. A model that holds what the comparison does not know
-//! (parameters, a second system, forces but gravity) stops the build.
+//! The trees are those of the model as it was resolved, in SI units. A model that holds what the comparison does not
+//! know (parameters, a second system, forces but gravity) stops the build.
 //!
 //! Where the variable `ROBOTS` names a folder, its robots are built, too: those of `robots.py`.
 

@@ -385,8 +385,8 @@ impl<T: Several<One = f64>> Held<T> {
         self.model.set_some(&self.varying, &self.now);
     }
 
-    /// Takes a step of Runge and Kutta. `turns` says from which share of an interval of inputs to which the step goes, if
-    /// they change within it.
+    /// Takes a step of Runge and Kutta. `turns` says from which share of an interval of inputs to which the step goes,
+    /// if they change within it.
     fn step(&mut self, t: f64, h: f64, turns: Option<[f64; 2]>) {
         let number = T::from_f64;
         if let Some([begin, _]) = turns {

@@ -77,7 +77,8 @@ pub struct Compiled<T, C> {
     of: PhantomData<fn(T)>,
 }
 
-// SAFETY: the memory is never written again. The entries point to functions, which are code, and to `_called`, which moves with them.
+// SAFETY: the memory is never written again. The entries point to functions, which are code, and to `_called`, which
+// moves with them.
 unsafe impl<T, C: Send> Send for Compiled<T, C> {}
 // SAFETY: as above. Evaluations of several threads share nothing that is written: each has a frame of its own.
 unsafe impl<T, C: Sync> Sync for Compiled<T, C> {}

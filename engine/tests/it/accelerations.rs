@@ -1,5 +1,5 @@
-//! Accelerations under the control of the step alone, without a second run: what rests on a stiff spring stays at rest, and small motions keep their
-//! amplitudes, in single runs and in lanes.
+//! Accelerations under the control of the step alone, without a second run: what rests on a stiff spring stays at rest,
+//! and small motions keep their amplitudes, in single runs and in lanes.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -49,7 +49,8 @@ run: {{ duration: 0.2 s, every: 1 ms }}
     )
 }
 
-/// Two bodies that a stiff spring keeps apart against two soft ones, without gravity: the forces that cancel are those of springs.
+/// Two bodies that a stiff spring keeps apart against two soft ones, without gravity: the forces that cancel are those
+/// of springs.
 fn between_springs() -> String {
     "model: pressed
 dimension: 2

@@ -320,7 +320,8 @@ fn a_row_that_was_refused_does_not_refuse_others() {
     assert_eq!(results, [1.25]);
 }
 
-/// With held inputs the motion is a parabola in each step, with linear ones a cubic: the method follows both to rounding.
+/// With held inputs the motion is a parabola in each step, with linear ones a cubic: the method follows both to
+/// rounding.
 #[test]
 fn rollouts_follow_closed_forms() {
     let engine = engine(CART);

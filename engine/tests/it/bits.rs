@@ -6,8 +6,8 @@
 //! | `machine` | machine code of every bundled model with the interpreter, over every scalar that has machine code |
 //! | `scenes` | machine code of scenes of real size with the interpreter |
 //!
-//! The text of generated Rust is the same for every scalar, so compiling it for one scalar tests all of it. With `--cfg bryant_nightly` it is compared over
-//! every scalar (`every`): the compiler takes minutes for that.
+//! The text of generated Rust is the same for every scalar, so compiling it for one scalar tests all of it. With `--cfg
+//! bryant_nightly` it is compared over every scalar (`every`): the compiler takes minutes for that.
 
 pub mod common;
 

@@ -1,4 +1,5 @@
-//! The C99 text of every model, compared with the engine to the last bit, at many states, with and without fused multiply-adds.
+//! The C99 text of every model, compared with the engine to the last bit, at many states, with and without fused
+//! multiply-adds.
 //!
 //! Each model becomes a program that reads states and writes the results of all methods as raw doubles.
 

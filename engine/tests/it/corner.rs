@@ -1,9 +1,10 @@
-//! No step passes a corner of a force curve and comes back unnoticed. The scene is a soft layer over hard ground, with a motion that turns near the
-//! corner.
+//! No step passes a corner of a force curve and comes back unnoticed. The scene is a soft layer over hard ground, with
+//! a motion that turns near the corner.
 //!
-//! x is a penetration, an angle or an elongation. ẍ = −g − F(x), where F has the slope 10⁻³ up to x = 1 and 10⁵ behind it. Without the hard ground
-//! the motion would turn a little behind the corner, and a step of a tenth of a second would pass over all of that. On each side of the corner x is a
-//! harmonic oscillation about a point, so its closed form is known.
+//! x is a penetration, an angle or an elongation. ẍ = −g − F(x), where F has the slope 10⁻³ up to x = 1 and 10⁵ behind
+//! it. Without the hard ground the motion would turn a little behind the corner, and a step of a tenth of a second
+//! would pass over all of that. On each side of the corner x is a harmonic oscillation about a point, so its closed
+//! form is known.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -142,7 +143,8 @@ fn engine(scene: &str, law: &str) -> Engine {
 /// The smallest change of the end of a run by a corner that was missed.
 const MISSED: f64 = 0.03;
 
-/// What is wrong with the end of a run, if anything is. Errors of a run are far smaller than the effect of a missed corner.
+/// What is wrong with the end of a run, if anything is. Errors of a run are far smaller than the effect of a missed
+/// corner.
 fn judged(speed: f64, end: f64, tolerance: f64) -> Option<String> {
     let exact = closed_form(speed, SLOPES);
     let away = (end - exact).abs();
@@ -207,13 +209,14 @@ fn no_run_passes_a_corner_unseen() {
     none(&wrong, count);
 }
 
-/// Fixed steps \[s\]: one as long as the run, and some within which the hard ground turns the motion. With ω² = 10⁵ 1/s² the last one resolves it: ω
-/// h = 0.03.
+/// Fixed steps \[s\]: one as long as the run, and some within which the hard ground turns the motion. With ω² = 10⁵
+/// 1/s² the last one resolves it: ω h = 0.03.
 const STEPS: [f64; 5] = [0.75, 0.2, 0.05, 0.01, RESOLVED];
 const RESOLVED: f64 = 1e-4;
 
-/// The error, if a run in fixed steps ended as if the hard ground that it met did not exist, to within 2 % of its effect. How well a run resolves the
-/// ground that it notices depends on its steps. Without the ground all methods are exact, except for 10⁻³ N/m.
+/// The error, if a run in fixed steps ended as if the hard ground that it met did not exist, to within 2 % of its
+/// effect. How well a run resolves the ground that it notices depends on its steps. Without the ground all methods are
+/// exact, except for 10⁻³ N/m.
 fn unseen(speed: f64, end: f64) -> Option<String> {
     let [hard, soft] = [SLOPES, [SLOPES[0]; 2]].map(|slopes| closed_form(speed, slopes));
     let meets = (hard - soft).abs() > MISSED;

@@ -1,9 +1,12 @@
-//! How far a run in fixed steps errs, as estimated along with it: neither a false alarm nor silence, of every method, in single runs and in lanes.
+//! How far a run in fixed steps errs, as estimated along with it: neither a false alarm nor silence, of every method,
+//! in single runs and in lanes.
 //!
-//! A run of each scene in each of several steps is compared with a reference. Its true error E is the largest of a velocity, or of a coordinate, relative
-//! to the largest of its kind: what the run cannot be trusted beyond ([`OFF`] times the energy limit). Where the motion is smooth, nothing may be said of an
-//! error with the threshold at 3 E, and with the threshold at E/3 it must be. Where steps go over touches, the error depends on where in a step a touch is, and
-//! may be small by chance: there the default threshold counts, nothing may be said at a third of it, and something must be said at three times it.
+//! A run of each scene in each of several steps is compared with a reference. Its true error E is the largest of a
+//! velocity, or of a coordinate, relative to the largest of its kind: what the run cannot be trusted beyond ([`OFF`]
+//! times the energy limit). Where the motion is smooth, nothing may be said of an error with the threshold at 3 E, and
+//! with the threshold at E/3 it must be. Where steps go over touches, the error depends on where in a step a touch is,
+//! and may be small by chance: there the default threshold counts, nothing may be said at a third of it, and something
+//! must be said at three times it.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -196,8 +199,8 @@ fn engine_of(text: &str) -> Engine {
     Engine::new(Config::new().lists(&model)).expect("no functions")
 }
 
-/// States at samples as far apart as steps are, and whether they are said to err by too much where the energy limit is such; `None` of a run that
-/// failed.
+/// States at samples as far apart as steps are, and whether they are said to err by too much where the energy limit is
+/// such; `None` of a run that failed.
 fn run(
     engine: &Engine,
     method: Integrator,
@@ -227,7 +230,8 @@ fn run(
     Some((states, told))
 }
 
-/// The largest difference of velocities, angular velocities and the coordinates of either, relative to the largest of its kind.
+/// The largest difference of velocities, angular velocities and the coordinates of either, relative to the largest of
+/// its kind.
 fn apart(info: &Info, run: &[Vec<f64>], reference: &[Vec<f64>]) -> f64 {
     let least = Tolerances::default();
     let mut largest = [

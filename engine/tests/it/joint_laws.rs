@@ -1,5 +1,5 @@
-//! Laws of joints that remember or drive, compared with closed forms, on one coordinate of inertia 1 of every kind: unloading curves, friction that
-//! holds, motors, drives.
+//! Laws of joints that remember or drive, compared with closed forms, on one coordinate of inertia 1 of every kind:
+//! unloading curves, friction that holds, motors, drives.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -135,7 +135,8 @@ fn bound(steps: f64, time: f64) -> f64 {
     steps * TOLERANCE * time.max(1.0)
 }
 
-/// x(t) of a mass that is thrown with `v` at a spring of stiffness k, which unloads along slope s and keeps its permanent set on both sides.
+/// x(t) of a mass that is thrown with `v` at a spring of stiffness k, which unloads along slope s and keeps its
+/// permanent set on both sides.
 fn thrown(v: f64, k: f64, s: f64, t: f64) -> f64 {
     let (loading, line) = (k.sqrt(), s.sqrt());
     let quarter = FRAC_PI_2 / loading + FRAC_PI_2 / line;
@@ -252,7 +253,8 @@ fn the_sets_are_outputs() {
 
 #[test]
 fn a_set_is_of_the_time_in_which_the_force_acts() {
-    // thrown to 0.125 before the force is there; at 0.08, on the way back, it is loaded at once, and unloads from there along its line
+    // thrown to 0.125 before the force is there; at 0.08, on the way back, it is loaded at once, and unloads from there
+    // along its line
     let law = format!("name: back, motor: -4 }}\n  - {{ joint: s/b, {SETS}, since: now");
     let outputs = sets(about(Of::Slider));
     let rest = format!("{outputs}switches: [{{ switch: now, when: {{ time: 0.4 }} }}]\n");
@@ -409,7 +411,8 @@ fn what_is_held_does_not_creep() {
         let held = format!("{rub}, friction_displacement: 1e-3, motor: 1.8");
         let (rows, steps) = run::<3>(&scene(of, &held, [0.0; 2], ""), 100.0, 100);
         for [t, q, rate] in rows.into_iter().filter(|row| row[0] > 9.0) {
-            // 0.9 of the friction bends the bristle by 0.9 of its displacement; the transient of the start has decayed to e⁻⁹⁰
+            // 0.9 of the friction bends the bristle by 0.9 of its displacement; the transient of the start has decayed
+            // to e⁻⁹⁰
             let bound = bound(steps, 1.0);
             assert!(
                 (q - 0.9e-3).abs() <= bound,
@@ -468,8 +471,8 @@ fn a_bristle_straightens_while_its_force_does_not_act() {
     assert!((bristle[2] - left).abs() <= 1e-9, "{bristle:?} {left}");
 }
 
-/// A stone on an arm, held by no force, and a stone that is a system of its own start with the same motion. Both fly alike, and the arm swings as if
-/// it were alone, though the coordinates of the first stone are relative to it.
+/// A stone on an arm, held by no force, and a stone that is a system of its own start with the same motion. Both fly
+/// alike, and the arm swings as if it were alone, though the coordinates of the first stone are relative to it.
 #[test]
 fn a_free_joint_lets_go() {
     let bodies = "mass: 0.5, cg: [0.02, 0.01, 0], inertia: [0.01, 0.012, 0.008]";

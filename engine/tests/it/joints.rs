@@ -1,5 +1,5 @@
-//! Joints with coordinates of their own, compared with results from elsewhere: the published motion of a stiff mechanism, the same mechanism in
-//! absolute coordinates, one body in place of welded ones, and closed forms.
+//! Joints with coordinates of their own, compared with results from elsewhere: the published motion of a stiff
+//! mechanism, the same mechanism in absolute coordinates, one body in place of welded ones, and closed forms.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -35,8 +35,9 @@ fn same(found: f64, expected: f64, scale: f64) {
     );
 }
 
-/// A flyball governor: a shaft on a hinge, a slider on it, and two rods on hinges, each tied to the slider by a stiff spring and damper. Rods and
-/// shaft are 0.01 m square with 3000 kg/m³, the masses at the tips are points, the slider is a cube.
+/// A flyball governor: a shaft on a hinge, a slider on it, and two rods on hinges, each tied to the slider by a stiff
+/// spring and damper. Rods and shaft are 0.01 m square with 3000 kg/m³, the masses at the tips are points, the slider
+/// is a cube.
 fn governor() -> String {
     let (rod, tip) = (0.3, 5.0);
     let mass = rod + tip;
@@ -188,8 +189,8 @@ fn relative_coordinates_say_the_same_as_absolute_ones() {
     }
 }
 
-/// Two bodies, the second welded to the first, or both as one body: masses at (0.1, 0, 0) and (0.3, 0, 0.2) of the frame; only the first has moments
-/// of inertia of its own. A hinge carries the pair, and the pair carries a ball.
+/// Two bodies, the second welded to the first, or both as one body: masses at (0.1, 0, 0) and (0.3, 0, 0.2) of the
+/// frame; only the first has moments of inertia of its own. A hinge carries the pair, and the pair carries a ball.
 fn pair(welded: bool) -> String {
     let bodies = match welded {
         true => "
@@ -198,7 +199,8 @@ fn pair(welded: bool) -> String {
       - { name: ball, on: two, at: [0, 0.1, 0.3], mass: 0.5, cg: [0.1, 0, -0.2], inertia: [0.02, 0.02, 0.01] }"
             .to_owned(),
         false => {
-            // about the common centre of gravity c = (2 (0.1, 0, 0) + (0.3, 0, 0.2))/3: r = ±, reduced mass 2/3, distance (0.2, 0, 0.2)
+            // about the common centre of gravity c = (2 (0.1, 0, 0) + (0.3, 0, 0.2))/3: r = ±, reduced mass 2/3,
+            // distance (0.2, 0, 0.2)
             let (xx, xz): (f64, f64) = (2.0 / 3.0 * 0.04, -2.0 / 3.0 * 0.04);
             let (a, b, c): (f64, f64, f64) = (0.2 + xx, 0.3 + 2.0 * xx, 0.25 + xx);
             // principal axes: a turn about y of [[a, xz], [xz, c]]
@@ -249,7 +251,8 @@ fn welded_bodies_are_one() {
 
 #[test]
 fn a_joint_holds_what_it_does_not_let_go() {
-    // An arm about z with the mass m at (r, 0, h) turns at Ω: a = −Ω² r along x. Its joint carries the force m (a − g) and the moment of that force.
+    // An arm about z with the mass m at (r, 0, h) turns at Ω: a = −Ω² r along x. Its joint carries the force m (a − g)
+    // and the moment of that force.
     let values = at_start(
         "
 model: turntable
@@ -278,7 +281,8 @@ run: { duration: 1 s, every: 0.1 s }
 
 #[test]
 fn a_screw_and_a_slider_follow_their_closed_forms() {
-    // A nut of mass m and moment J about the screw, of advance h, falls by q̈ = −m g h/(J + m h²); a slider on a slope under its own spring and damper.
+    // A nut of mass m and moment J about the screw, of advance h, falls by q̈ = −m g h/(J + m h²); a slider on a slope
+    // under its own spring and damper.
     let values = at_start(
         "
 model: screw

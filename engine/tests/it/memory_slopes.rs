@@ -1,5 +1,6 @@
-//! Derivatives through the memory of laws: of what the foot of an unloading line, a locked length, webbing that is paid out and the times of switches carry
-//! on from an event whose time depends on parameters. Each is compared with central differences of rows, or with a closed form.
+//! Derivatives through the memory of laws: of what the foot of an unloading line, a locked length, webbing that is paid
+//! out and the times of switches carry on from an event whose time depends on parameters. Each is compared with central
+//! differences of rows, or with a closed form.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -13,8 +14,8 @@ const TOLERANCE: f64 = 1e-12;
 /// The share of its value by which a parameter is changed to either side, and twice.
 const MOVED: f64 = 1e-4;
 
-/// A mass of 1 kg on a line swings about x = 0.2 m; at x = 0 it is 0.1 m deep in a plane, and stretches a belt by 0.2 m. Beside it, and sharing nothing with
-/// it, a mass is pushed from `when` on.
+/// A mass of 1 kg on a line swings about x = 0.2 m; at x = 0 it is 0.1 m deep in a plane, and stretches a belt by 0.2
+/// m. Beside it, and sharing nothing with it, a mass is pushed from `when` on.
 fn scene(parameters: &str, forces: &str, more: &str) -> Engine {
     let text = format!(
         "
@@ -83,7 +84,8 @@ fn directions(row: &[f64]) -> Vec<f64> {
     (0..count * count).map(entry).collect()
 }
 
-/// Compares the derivatives of all responses by all parameters, each times its value, with central differences. Returns the largest slope of the first system.
+/// Compares the derivatives of all responses by all parameters, each times its value, with central differences. Returns
+/// the largest slope of the first system.
 fn compare(what: &str, engine: &Engine, row: &[f64], duration: f64) -> f64 {
     let job = job(row.len(), duration);
     let found = engine
@@ -111,8 +113,8 @@ fn compare(what: &str, engine: &Engine, row: &[f64], duration: f64) -> f64 {
             let wide = (at(3) - at(0)) / (4.0 * MOVED);
             let close = (at(2) - at(1)) / (2.0 * MOVED);
             let ours = found.slopes[3 * parameter + response];
-            // the error of a difference is of the square of what it goes over, so three times that of the close one lies between both; and each step errs by
-            // the tolerance times 1 + the rate of at most 4 1/s, in both rows
+            // the error of a difference is of the square of what it goes over, so three times that of the close one
+            // lies between both; and each step errs by the tolerance times 1 + the rate of at most 4 1/s, in both rows
             let errs = f64::from(steps) * 5.0 * TOLERANCE;
             let allowed = (wide - close).abs() + errs / MOVED + errs;
             let apart = (ours - close).abs();
@@ -232,7 +234,8 @@ fn a_law_that_begins_at_an_event_is_loaded_from_its_state_there() {
     );
 }
 
-/// x = 0.2 + 0.2 cos ω t passes `place` at t₁ = acos((place − 0.2)/0.2)/ω; from T = t₁ + late on F pulls, and the mass swings about 0.2 + F/k more.
+/// x = 0.2 + 0.2 cos ω t passes `place` at t₁ = acos((place − 0.2)/0.2)/ω; from T = t₁ + late on F pulls, and the mass
+/// swings about 0.2 + F/k more.
 #[test]
 fn a_latch_keeps_the_derivative_of_its_time() {
     let fires = "  - { switch: fires, when: { of: joint s/b, what: position, below: place }, after: late }\n";
@@ -284,7 +287,8 @@ fn kinks_of_one_cause_are_one_event() {
     );
 }
 
-/// A push that begins where another ends: by the time of one of them there is a slope on either side, and none is given.
+/// A push that begins where another ends: by the time of one of them there is a slope on either side, and none is
+/// given.
 #[test]
 fn what_is_tied_has_no_slope() {
     let late = "  - { switch: late, when: { time: 0.3 } }\n";

@@ -1,7 +1,8 @@
-//! Mirror images by symmetry: a body whose sides are images of each other, and which starts symmetrically, accelerates symmetrically.
+//! Mirror images by symmetry: a body whose sides are images of each other, and which starts symmetrically, accelerates
+//! symmetrically.
 //!
-//! Nothing here knows how images are made. Polar vectors of the two sides differ in the sign of y, axial ones in the signs of x and z. The
-//! parts in the middle have no acceleration along y and none about x and z.
+//! Nothing here knows how images are made. Polar vectors of the two sides differ in the sign of y, axial ones in the
+//! signs of x and z. The parts in the middle have no acceleration along y and none about x and z.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -137,7 +138,8 @@ fn mechanisms_whose_sides_are_mirror_images_move_so() {
         ControlFlow::Continue(())
     });
     let steps = report.unwrap_or_else(|failure| panic!("{failure}")).steps as f64;
-    // at the start, rounding in a factorisation; later the tolerance of every step, times accelerations per displacement of 1e6
+    // at the start, rounding in a factorisation; later the tolerance of every step, times accelerations per
+    // displacement of 1e6
     for (values, relative) in samples.iter().zip([1e-9, steps * 1e-11 * 1e3]) {
         let named = |name: String| {
             let found = machine.info().outputs.iter().position(|o| o.name == name);

@@ -1,5 +1,5 @@
-//! No step passes over a touch, an edge, a taut belt or a stop. The scenes are the random ones of the hard cases ([`bryant_hard::meeting`]), whose
-//! motion is known in closed form until something acts.
+//! No step passes over a touch, an edge, a taut belt or a stop. The scenes are the random ones of the hard cases
+//! ([`bryant_hard::meeting`]), whose motion is known in closed form until something acts.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -97,13 +97,15 @@ fn exact(engine: &Engine, cases: &[Case]) -> Vec<Vec<f64>> {
     cases.iter().map(&mut end_of).collect()
 }
 
-/// Fixed steps of single runs and of lanes \[s\]: one for the whole run, and two in which fast bodies may pass over everything.
+/// Fixed steps of single runs and of lanes \[s\]: one for the whole run, and two in which fast bodies may pass over
+/// everything.
 const STEPS: [f64; 3] = [1.0, 0.13, 0.01];
 
-/// What is wrong with the end of a run in fixed steps, if anything is. It is wrong if the run ends, without a warning, as if nothing had been met,
-/// though the obstacle changes the end by more than 3 % (a visit that needs no warning changes it by at most 1 %). It is also wrong if there is a
-/// warning and nothing was met. How well steps resolve what they notice depends on their length. `exact` is the end with error control. On a parabola
-/// the stages of a step may lie where the motion does not go, and a force there makes the step wrong; so a false warning counts only in straight
+/// What is wrong with the end of a run in fixed steps, if anything is. It is wrong if the run ends, without a warning,
+/// as if nothing had been met, though the obstacle changes the end by more than 3 % (a visit that needs no warning
+/// changes it by at most 1 %). It is also wrong if there is a warning and nothing was met. How well steps resolve what
+/// they notice depends on their length. `exact` is the end with error control. On a parabola the stages of a step may
+/// lie where the motion does not go, and a force there makes the step wrong; so a false warning counts only in straight
 /// flight.
 fn judged_if_told(case: &Case, exact: &[f64], end: &[f64], told: bool) -> Option<String> {
     // balls and plates give two components of a velocity, belts and stops a position

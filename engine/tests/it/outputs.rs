@@ -1,7 +1,8 @@
-//! Outputs with a direction, compared with balances that are independent of them: rates along the motion, momentum, angular momentum.
+//! Outputs with a direction, compared with balances that are independent of them: rates along the motion, momentum,
+//! angular momentum.
 //!
-//! A rate along the motion is (g(t + h, y + h ẏ) − g(t − h, y − h ẏ)) / 2h. Its error is h² times the third derivative, plus the rounding
-//! of g over h.
+//! A rate along the motion is (g(t + h, y + h ẏ) − g(t − h, y − h ẏ)) / 2h. Its error is h² times the third derivative,
+//! plus the rounding of g over h.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;

@@ -1,5 +1,5 @@
-//! Rows of a study that are run again at smaller tolerances: of a motion that is far smaller than what tolerances let pass, a ball that rests on a stiff
-//! plate and presses with its weight; and one whose better run cannot be trusted.
+//! Rows of a study that are run again at smaller tolerances: of a motion that is far smaller than what tolerances let
+//! pass, a ball that rests on a stiff plate and presses with its weight; and one whose better run cannot be trusted.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -113,7 +113,8 @@ fn what_rows_cannot_reach_is_told() {
     }
 }
 
-/// A mass on a spring whose curve, softer one way than the other, goes on beyond its points: for one more width of them it can be trusted.
+/// A mass on a spring whose curve, softer one way than the other, goes on beyond its points: for one more width of them
+/// it can be trusted.
 const SPRING: &str = "model: spring
 dimension: 2
 parameters: { rate: 1 m/s }

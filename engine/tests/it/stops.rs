@@ -1,4 +1,5 @@
-//! Vehicles that stop and stay at rest, compared with closed forms: over every scalar, in single runs, in lanes and in gradients.
+//! Vehicles that stop and stay at rest, compared with closed forms: over every scalar, in single runs, in lanes and in
+//! gradients.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -231,8 +232,8 @@ outputs:
     ))
 }
 
-/// 0, up to 4 in 1, there for 2, down to 0 in 1. From 6 it comes to rest at 2, after 12 − (2/3 + 2 + 2) = 22/3; from 12, at its last point 4,
-/// symmetric about 2, after 24.
+/// 0, up to 4 in 1, there for 2, down to 0 in 1. From 6 it comes to rest at 2, after 12 − (2/3 + 2 + 2) = 22/3; from
+/// 12, at its last point 4, symmetric about 2, after 24.
 #[test]
 fn a_pulse_is_followed_up_to_the_end() {
     let points = "points: [[0, 0], [1, -4], [3, -4], [4, 0]]";
@@ -471,8 +472,8 @@ fn lanes_stop_one_by_one() {
     }
 }
 
-/// In steps of 0.2 s the pulled block errs by 1.2 % of the largest speed behind a car that brakes softly, and by 6.9 % behind one that brakes hard, compared
-/// with steps of 1 ms. What is told begins at 5 %.
+/// In steps of 0.2 s the pulled block errs by 1.2 % of the largest speed behind a car that brakes softly, and by 6.9 %
+/// behind one that brakes hard, compared with steps of 1 ms. What is told begins at 5 %.
 #[test]
 fn steps_too_long_for_a_hard_braking_are_told() {
     let engine = stopping();
@@ -584,8 +585,8 @@ fn sign_of(side: f64) -> f64 {
     if side == 0.0 { 0.0 } else { side.signum() }
 }
 
-/// A body that stops, compared with the same body that goes on. Before the stop both are equal. The body is at rest from the first time at
-/// which the other has turned back, and not before.
+/// A body that stops, compared with the same body that goes on. Before the stop both are equal. The body is at rest
+/// from the first time at which the other has turned back, and not before.
 // one loop, whose steps share the two bodies and their curve
 #[test]
 fn random_pulses_end_where_the_free_motion_turns() {

@@ -7,8 +7,8 @@ use std::ops::ControlFlow;
 
 const TOLERANCE: f64 = 1e-10;
 
-/// A mass on a spring swings about x = 0.2 m with the amplitude 0.2 m and the period 1 s. At x = 0 it is 0.1 m deep in the plane, and stretches
-/// the belt by 0.2 m.
+/// A mass on a spring swings about x = 0.2 m with the amplitude 0.2 m and the period 1 s. At x = 0 it is 0.1 m deep in
+/// the plane, and stretches the belt by 0.2 m.
 fn scene(law: &str, since: &str) -> Engine {
     let text = format!(
         "
@@ -82,7 +82,8 @@ fn what_happens_before_the_switch_leaves_no_set() {
                 felt = felt.max((free[i][k] - at[k]).abs());
             }
         }
-        // the same equations but for a selection, which changes the order of operations: roundings of some hundred steps
+        // the same equations but for a selection, which changes the order of operations: roundings of some hundred
+        // steps
         assert!(felt < 1e-10, "{law}: the same before it ends, {felt}");
         let unloaded = 0.4 - acts[20][0];
         assert!(unloaded > 1e-3, "{law}: what it takes is felt, {unloaded}");

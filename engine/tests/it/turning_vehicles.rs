@@ -1,5 +1,5 @@
-//! Systems whose roots are on joints of their own, on vehicles that turn. They are compared with closed forms, and with the same systems on
-//! bodies that turn freely and that nothing brakes.
+//! Systems whose roots are on joints of their own, on vehicles that turn. They are compared with closed forms, and with
+//! the same systems on bodies that turn freely and that nothing brakes.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;
@@ -39,7 +39,8 @@ fn table(angles: &str) -> String {
     )
 }
 
-/// The error of a motion that amplifies errors by `growth`, after some hundred steps, each with an error of the tolerance.
+/// The error of a motion that amplifies errors by `growth`, after some hundred steps, each with an error of the
+/// tolerance.
 fn bound(growth: f64) -> f64 {
     300.0 * TOLERANCE * growth
 }
@@ -72,7 +73,8 @@ fn a_bead_on_a_turning_rod_moves_as_a_hyperbolic_cosine() {
     }
 }
 
-/// A pendulum of length l on a hinge at the axis of a turntable about z. Its mass is nearly a point: the moments of inertia are negligible.
+/// A pendulum of length l on a hinge at the axis of a turntable about z. Its mass is nearly a point: the moments of
+/// inertia are negligible.
 fn pendulum(angle: f64) -> String {
     format!(
         "model: pendulum\ndimension: 3\n{}systems:\n  - name: s\n    reference: {{ on: table, at: [0, 0, 0] }}\n    \
@@ -107,8 +109,8 @@ fn a_pendulum_on_a_turntable_swings_about_its_balance() {
     assert!(moved > small, "it swings");
 }
 
-/// The same two elements on a turning table: a vehicle, or a wheel on a hinge whose moment of inertia is so large that nothing here can change
-/// its speed.
+/// The same two elements on a turning table: a vehicle, or a wheel on a hinge whose moment of inertia is so large that
+/// nothing here can change its speed.
 fn on_table(wheel: bool, dimension: u32, [first, second]: [&str; 2]) -> String {
     let vector = |x: f64, y: f64, z: f64| match dimension {
         2 => format!("[{x}, {z}]"),

@@ -1,4 +1,5 @@
-//! The functions of FMI 2.0 and 3.0, for co-simulation: the shared library that every FMU of `bryant export fmu` carries.
+//! The functions of FMI 2.0 and 3.0, for co-simulation: the shared library that every FMU of `bryant export fmu`
+//! carries.
 //!
 //! | module | what |
 //! |---|---|

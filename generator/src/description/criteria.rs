@@ -26,8 +26,8 @@ macro_rules! places {
                 dummy: String,
                 /// whose coefficients the [filters](compare.md#filters) have: `iso6487`, or `sae-j211`
                 filter_standard: Option<FilterStandard> = "`iso6487`",
-                /// test object and position, the first two characters of the codes, where outputs of several occupants have
-                /// one, `"13"`
+                /// test object and position, the first two characters of the codes, where outputs of several occupants
+                /// have one, `"13"`
                 occupant: Option<String> = "that of the outputs' codes",
                 $( $(#[doc = $meaning])* $place: Option<In<String, $unit>>, )*
             }

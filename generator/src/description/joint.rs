@@ -1,5 +1,5 @@
-//! The joint of an element as written: a word, one joint, or a list of joints from the carrier outwards. What stands for which kind of joint is said
-//! by the files of [kinds](crate::joint).
+//! The joint of an element as written: a word, one joint, or a list of joints from the carrier outwards. What stands
+//! for which kind of joint is said by the files of [kinds](crate::joint).
 
 use super::language::Language;
 use super::measure::{self, Armature, NotNegative, Pure, Ratio};

@@ -1,5 +1,5 @@
-//! The parts of the language that are handed in by whoever reads a text: the kinds of joints and the force laws. Reading
-//! asks for no kind by its name; only the mirror images of lists (`expand/axes.rs`) name kinds of joints.
+//! The parts of the language that are handed in by whoever reads a text: the kinds of joints and the force laws.
+//! Reading asks for no kind by its name; only the mirror images of lists (`expand/axes.rs`) name kinds of joints.
 
 use super::force::LawKeys;
 use super::joint::{JointKey, JointWord};

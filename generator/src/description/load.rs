@@ -233,7 +233,8 @@ pub struct Loaded {
     pub lost: Lost,
 }
 
-/// Opens a file to be read, behind links; what is no file, a folder, a device or a pipe, is refused: it may have no end.
+/// Opens a file to be read, behind links; what is no file, a folder, a device or a pipe, is refused: it may have no
+/// end.
 pub fn open_file(path: &Path) -> io::Result<std::fs::File> {
     let refused = || io::Error::other("it is not a file");
     // Asked before opening, which would wait for whoever writes to a pipe.
@@ -353,7 +354,8 @@ pub fn unreadable(path: &str, error: &io::Error) -> (String, &'static str) {
 /// Parses a model and all that it includes; whether the Rust files of user forces are read is chosen.
 ///
 /// # Errors
-/// All problems, where so little is left without what is wrong that nothing can be said of it; other problems are part of the result.
+/// All problems, where so little is left without what is wrong that nothing can be said of it; other problems are part
+/// of the result.
 pub fn load(
     language: &'static Language,
     name: &str,
@@ -850,7 +852,8 @@ fn normal(path: &Path) -> PathBuf {
 /// A path as shown to the user, the same on every system.
 pub fn shown(path: &Path) -> String {
     let path = path.display().to_string();
-    // of a path as Windows gives it in full, what a user writes; with the other sign the beginning would have no meaning
+    // of a path as Windows gives it in full, what a user writes; with the other sign the beginning would have no
+    // meaning
     let path = path.strip_prefix(r"\\?\").unwrap_or(&path);
     path.replace('\\', "/")
 }

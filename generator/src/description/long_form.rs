@@ -66,8 +66,8 @@ pub fn long_form(loaded: &Loaded) -> String {
     text
 }
 
-/// Puts what a file says of a system that an included one describes where that is described: a reference in the place of the one there, a start
-/// key by key.
+/// Puts what a file says of a system that an included one describes where that is described: a reference in the place
+/// of the one there, a start key by key.
 fn join_systems(systems: &mut Node) {
     let NodeKind::List(items) = &mut systems.kind else {
         return;

@@ -1,6 +1,8 @@
-//! What is left of a tree when that is taken out which is wrong, so that the rest can be looked at, too: one mistake hides no other.
+//! What is left of a tree when that is taken out which is wrong, so that the rest can be looked at, too: one mistake
+//! hides no other.
 //!
-//! What is taken out may be missed elsewhere. [`Lost`] knows its names and places, and tells such consequences from mistakes.
+//! What is taken out may be missed elsewhere. [`Lost`] knows its names and places, and tells such consequences from
+//! mistakes.
 
 use super::language::Language;
 use super::place::At;
@@ -160,7 +162,8 @@ pub fn take_out(root: &mut Node, problems: &[Diagnostic]) {
     }
 }
 
-/// Whether the item of a list in which a problem is has one of these words, such as the name of a parameter whose value is not known.
+/// Whether the item of a list in which a problem is has one of these words, such as the name of a parameter whose value
+/// is not known.
 pub fn item_mentions(source: &Source, problem: &Diagnostic, words: &[String]) -> bool {
     let place = (problem.line, problem.column);
     let contains = |from: Span, node: &Node| begin(from) <= place && place <= end(node);

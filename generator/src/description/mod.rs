@@ -4,8 +4,8 @@
 //! text ─tree→ located tree ─shape→ checked ─expand→ long form ─read→ Model, Included ─load→ all files of a model
 //! ```
 //!
-//! One mistake hides no other: what is wrong is reported and [taken out](mend), and the rest is read and resolved. [`slip`] names slips of the
-//! pen, [`file_content`] what a file is that is no model.
+//! One mistake hides no other: what is wrong is reported and [taken out](mend), and the rest is read and resolved.
+//! [`slip`] names slips of the pen, [`file_content`] what a file is that is no model.
 //!
 //! Unknown keys are errors. Limits keep hostile text from costing time: files up to 16 MiB, nesting up to 32, 2000
 //! elements, 10 000 points of a curve, 10 000 entries of any other list, 64 files; no aliases, anchors and tags.

@@ -1,9 +1,9 @@
-//! The keys of the language, declared once: as types, as a check that reports every misfit with its place, and as the list that the reference page
-//! is tested against.
+//! The keys of the language, declared once: as types, as a check that reports every misfit with its place, and as the
+//! list that the reference page is tested against.
 //!
-//! `record!` makes of one declaration a struct and its [`Shape`], which first walks the located tree and reports all misfits, and then reads the
-//! values. What passes the check can be read. Values are read by this trait and not by serde, whose code for so many records would be a tenth of the
-//! crate.
+//! `record!` makes of one declaration a struct and its [`Shape`], which first walks the located tree and reports all
+//! misfits, and then reads the values. What passes the check can be read. Values are read by this trait and not by
+//! serde, whose code for so many records would be a tenth of the crate.
 
 use super::language::Language;
 use super::measure::Unit;

@@ -1,5 +1,5 @@
-//! Slips of the pen, after which a text is not what was meant: a tab, a space that is missing or no usual one, a comma in a number,
-//! typographic signs. They are looked for only where something is wrong.
+//! Slips of the pen, after which a text is not what was meant: a tab, a space that is missing or no usual one, a comma
+//! in a number, typographic signs. They are looked for only where something is wrong.
 
 use super::place::At;
 use super::tree::{NodeKind, Span};
@@ -21,8 +21,8 @@ pub struct Slip {
 /// A parser notices a slip at most this many lines of content later.
 const NOTICED_AFTER: usize = 3;
 
-/// The slip that a parser noticed in this line: the last one in the line of content behind it, in it, or shortly before; or, in an
-/// indentation, anywhere before.
+/// The slip that a parser noticed in this line: the last one in the line of content behind it, in it, or shortly
+/// before; or, in an indentation, anywhere before.
 pub fn noticed_at(text: &str, line: usize) -> Option<Slip> {
     let mut before = Vec::new();
     for (number, content) in (1..).zip(text.lines()) {
@@ -200,8 +200,8 @@ pub struct Meant {
     pub said: (String, String),
 }
 
-/// What a key that is none was meant to be, if this is seen from its signs: one of `known`, its value behind a colon without a space, or
-/// surrounded by signs that are no letters.
+/// What a key that is none was meant to be, if this is seen from its signs: one of `known`, its value behind a colon
+/// without a space, or surrounded by signs that are no letters.
 pub fn key_meant(written: &str, known: &[&str]) -> Option<Meant> {
     let characters: Vec<char> = written.chars().collect();
     if let Some(length) = key_with_value(&characters)

@@ -55,8 +55,8 @@ record! {
         velocity: Option<Vec<OverTime<Speed>>>,
         /// per absolute axis: a number, or a curve of time (s → m/s²)
         acceleration: Option<Vec<OverTime<Acceleration>>>,
-        /// `true`: along each axis it comes to rest when its velocity reaches 0, as [a vehicle](#a-vehicle-that-stops) does;
-        /// only with `acceleration`
+        /// `true`: along each axis it comes to rest when its velocity reaches 0, as [a vehicle](#a-vehicle-that-stops)
+        /// does; only with `acceleration`
         stops: Option<bool> = "`false`",
     }
 }

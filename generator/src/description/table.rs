@@ -1,4 +1,5 @@
-//! Columns of numbers in text files (CSV) and channels, as the points of curves: [`bryant_table`] says how they are read.
+//! Columns of numbers in text files (CSV) and channels, as the points of curves: [`bryant_table`] says how they are
+//! read.
 
 use super::tree::MAX_BYTES;
 use super::unit::{product, spelled};

@@ -1,4 +1,5 @@
-//! The charts of all elements with Bryant angles as discrete states: their memory, and how an accepted step renews them.
+//! The charts of all elements with Bryant angles as discrete states: their memory, and how an accepted step renews
+//! them.
 
 use crate::expression::Graph;
 use crate::force::LawState;

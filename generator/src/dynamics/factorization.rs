@@ -144,8 +144,8 @@ impl<'g> Ldl<'g> {
         None
     }
 
-    /// The factors of unknown k with respect to the unknowns from `first` on, if all before have no z of their own: minus
-    /// k is the sum of the products.
+    /// The factors of unknown k with respect to the unknowns from `first` on, if all before have no z of their own:
+    /// minus k is the sum of the products.
     fn in_terms_of(
         &self,
         k: usize,

@@ -49,8 +49,8 @@ impl Cost {
     }
 }
 
-/// Operations of the rates of continuous states, such as the gas of an airbag, that accelerations do not need. They are counted before the passes of
-/// emission.
+/// Operations of the rates of continuous states, such as the gas of an airbag, that accelerations do not need. They are
+/// counted before the passes of emission.
 fn of_states(equations: &Equations) -> Count {
     let rates: Vec<NodeId> = equations
         .auxiliaries

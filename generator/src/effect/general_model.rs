@@ -1,14 +1,16 @@
 //! The same scene with nothing left out: the equations that a general program, written for every scene, would evaluate.
 //!
-//! Every force that the text mentions acts, switched off or not. A planar motion becomes one in space, with quaternions, and all elements have three
-//! principal moments in axes of their own. Every number of the model, zeros included, is a run-time parameter, so that nothing folds. Every term of a
-//! law is there, with the coefficient 0 where the scene does not have it. Joints have a law about each rotation. A field acts on every element by
-//! itself. A fixed reference joint is one with the prescribed acceleration 0. At the default parameters the motion is that of the scene with its
-//! forces switched on.
+//! Every force that the text mentions acts, switched off or not. A planar motion becomes one in space, with
+//! quaternions, and all elements have three principal moments in axes of their own. Every number of the model, zeros
+//! included, is a run-time parameter, so that nothing folds. Every term of a law is there, with the coefficient 0 where
+//! the scene does not have it. Joints have a law about each rotation. A field acts on every element by itself. A fixed
+//! reference joint is one with the prescribed acceleration 0. At the default parameters the motion is that of the scene
+//! with its forces switched on.
 //!
-//! Not generalised are: terms that a law can only have with a coefficient that is not 0 (hysteresis, stops, locks, reels and limiters of belts,
-//! damping that fades in), switches, motions of vehicles, the tree, which joints and bodies have forces at all, the points of curves, free reference
-//! joints, and Bryant angles if the text asks for them. Outputs are left out.
+//! Not generalised are: terms that a law can only have with a coefficient that is not 0 (hysteresis, stops, locks,
+//! reels and limiters of belts, damping that fades in), switches, motions of vehicles, the tree, which joints and
+//! bodies have forces at all, the points of curves, free reference joints, and Bryant angles if the text asks for them.
+//! Outputs are left out.
 
 use super::planar;
 

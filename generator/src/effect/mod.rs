@@ -2,10 +2,10 @@
 //!
 //! S v̇ = r_s + r_k = Σ effects
 //!
-//! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model. From the same
-//! expressions as the equations it finds which effects vanish by the structure of the model. [`of_annotated_model`]
-//! adds where the text calls for each effect, and what the text mentions without effect. [`without`](fn@without) leaves
-//! one effect out; [`general`](fn@general) leaves out none.
+//! An effect that is out leaves no trace in the generated source. [`of_model`] lists the effects of a model. From the
+//! same expressions as the equations it finds which effects vanish by the structure of the model.
+//! [`of_annotated_model`] adds where the text calls for each effect, and what the text mentions without effect.
+//! [`without`](fn@without) leaves one effect out; [`general`](fn@general) leaves out none.
 
 mod annotated_model;
 mod cost;
@@ -44,8 +44,8 @@ pub enum Effect {
         /// The absolute axis.
         axis: usize,
     },
-    /// The first moment w of an element together with the bodies that it carries: it couples rotation of the element and
-    /// acceleration of its joint.
+    /// The first moment w of an element together with the bodies that it carries: it couples rotation of the element
+    /// and acceleration of its joint.
     FirstMoment(ElementId),
     /// The gyroscopic moment ω × Jω of an element together with the bodies that it carries.
     GyroscopicMoment(ElementId),

@@ -5,8 +5,8 @@ use crate::model::{
     Quantity, Reference, RotationQuantity, System, SystemQuantity,
 };
 
-/// The planar part of a spatial model: without y and without rotations about x and z. `None` if an element could then turn
-/// without inertia.
+/// The planar part of a spatial model: without y and without rotations about x and z. `None` if an element could then
+/// turn without inertia.
 pub fn flattened(model: &Model) -> Option<Model> {
     let in_plane = |force: &Force| force.law.exists_in_plane();
     if !model.systems.iter().all(System::has_balls_alone) || !model.forces.iter().all(in_plane) {
@@ -98,8 +98,8 @@ fn flatten_quantity(quantity: &mut Quantity) -> bool {
 /// Moments about x and z, relative to the known one about y. All three differ, as those of a real body may.
 const OTHER_MOMENTS: [f64; 2] = [1.1, 0.8];
 
-/// Turns a planar model into a spatial one with the same motion, along and about y only; the equations do not know that it is
-/// planar.
+/// Turns a planar model into a spatial one with the same motion, along and about y only; the equations do not know that
+/// it is planar.
 pub fn embedded(model: &mut Model) {
     let defaults: Vec<f64> = model.parameters.iter().map(|p| p.default).collect();
     model.dimension = Dimension::Space;

@@ -1,8 +1,8 @@
 //! Effects that vanish by the structure of a model. This is decided from the expressions of the equations, not from
 //! numbers.
 //!
-//! w = 0, ω × Jω = 0, a field that acts on no single element: the effect is out if its expression is the number 0 in the
-//! graph.
+//! w = 0, ω × Jω = 0, a field that acts on no single element: the effect is out if its expression is the number 0 in
+//! the graph.
 
 use crate::dynamics::augmented_body::{AugmentedTree, constants};
 use crate::dynamics::{Options, derive_with};

@@ -16,8 +16,8 @@ pub(crate) fn share<'g>(x: Expr<'g>) -> Expr<'g> {
 /// zero speed.
 ///
 /// `limit` \[N\] or \[N m\], not negative; `speed` and `tolerance` \[m/s\] or \[rad/s\], the tolerance positive. The
-/// ramp makes the law a function of the state. Below the tolerance the friction is viscous, so a body at rest under load
-/// creeps; the smaller the tolerance, the slower it creeps.
+/// ramp makes the law a function of the state. Below the tolerance the friction is viscous, so a body at rest under
+/// load creeps; the smaller the tolerance, the slower it creeps.
 pub fn coulomb<'g>(limit: Expr<'g>, speed: Expr<'g>, tolerance: Expr<'g>) -> Expr<'g> {
     -(limit * share(speed / tolerance))
 }

@@ -1,6 +1,6 @@
 //! What force laws have in common in the equations, whatever they are: a law ([`Equations`]) adds to the [`Wrench`] of
-//! the elements that it touches, has states and events, and leaves its [`Measures`] for the outputs. The laws themselves
-//! are in [`law`](crate::law); no file of this folder names one.
+//! the elements that it touches, has states and events, and leaves its [`Measures`] for the outputs. The laws
+//! themselves are in [`law`](crate::law); no file of this folder names one.
 
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
 #[doc(hidden)]

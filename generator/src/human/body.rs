@@ -1,13 +1,15 @@
 //! The construction of a body.
 //!
-//! - **Lengths** are those of de Leva times stature over mean stature. **Masses** are shares of the mass, divided by their sum. Moments of inertia
-//!   are m (r l)² with the radii of gyration r.
-//! - **Joints**: the hip, knee, ankle, shoulder, elbow and wrist joints are the ends of the segments. Abdomen, thorax and head join at the navel, the
-//!   lower end of the breastbone and the seventh neck vertebra, all on one vertical line (**assumed**: the last two lie on the front and the back).
-//! - Shoulder joints are 0.170 m, hips 0.085 m from the middle of an adult of mean stature. The ankle is 0.050 m in front of the heel and 0.040 m
-//!   above the centre of gravity of the foot (**assumed**).
+//! - **Lengths** are those of de Leva times stature over mean stature. **Masses** are shares of the mass, divided by
+//!   their sum. Moments of inertia are m (r l)² with the radii of gyration r.
+//! - **Joints**: the hip, knee, ankle, shoulder, elbow and wrist joints are the ends of the segments. Abdomen, thorax
+//!   and head join at the navel, the lower end of the breastbone and the seventh neck vertebra, all on one vertical
+//!   line (**assumed**: the last two lie on the front and the back).
+//! - Shoulder joints are 0.170 m, hips 0.085 m from the middle of an adult of mean stature. The ankle is 0.050 m in
+//!   front of the heel and 0.040 m above the centre of gravity of the foot (**assumed**).
 //! - The sole is where the stature ends: its distance below the ankle is the rest that the segments leave.
-//! - **Ellipsoids** have the breadths, depths and girths of ANSUR II. The height of the head's ellipsoid, 0.13 of the stature, is **assumed**.
+//! - **Ellipsoids** have the breadths, depths and girths of ANSUR II. The height of the head's ellipsoid, 0.13 of the
+//!   stature, is **assumed**.
 
 use super::data::{Outside, Segment, Segments, outside, segments};
 use super::dummy::dummy;

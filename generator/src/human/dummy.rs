@@ -1,9 +1,10 @@
 //! Bodies with the masses of crash dummies, and of children with the dimensions of child dummies.
 //!
-//! - An **adult dummy** is an adult of the dummy's stature whose parts have the dummy's masses. The mass of a part is divided among its segments in
-//!   de Leva's proportions.
-//! - A **child** has the lengths of a child dummy. Its limbs are uniform cylinders of 1000 kg/m³. Its trunk is a uniform elliptical cylinder, cut
-//!   into pelvis, abdomen and thorax where de Leva cuts that of a man. Its head is a uniform ellipsoid on a uniform cylinder, the neck.
+//! - An **adult dummy** is an adult of the dummy's stature whose parts have the dummy's masses. The mass of a part is
+//!   divided among its segments in de Leva's proportions.
+//! - A **child** has the lengths of a child dummy. Its limbs are uniform cylinders of 1000 kg/m³. Its trunk is a
+//!   uniform elliptical cylinder, cut into pelvis, abdomen and thorax where de Leva cuts that of a man. Its head is a
+//!   uniform ellipsoid on a uniform cylinder, the neck.
 //!
 //! `dummies.json` and docs/humans.md say what is published and what is assumed.
 

@@ -9,8 +9,8 @@
 //! | `posture` | angles of joints by posture |
 //! | `text` | the system as YAML |
 //!
-//! All coordinates are 0 for a body that stands upright: x forward, y to the left, z up. All frames are then parallel. The origin of an element is
-//! its joint on the carrying element; that of the pelvis is midway between the hips.
+//! All coordinates are 0 for a body that stands upright: x forward, y to the left, z up. All frames are then parallel.
+//! The origin of an element is its joint on the carrying element; that of the pelvis is midway between the hips.
 
 mod body;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.

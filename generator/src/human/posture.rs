@@ -2,8 +2,8 @@
 
 use super::body::Body;
 
-/// Names of the joints with an angle. The trunk is measured from the vertical, all others from the element that carries them.
-/// Both sides have the same angle.
+/// Names of the joints with an angle. The trunk is measured from the vertical, all others from the element that carries
+/// them. Both sides have the same angle.
 pub const JOINTS: [&str; 8] = [
     "trunk",
     "head",
@@ -15,7 +15,8 @@ pub const JOINTS: [&str; 8] = [
     "feet",
 ];
 
-/// Angles about y \[rad\], in the order of [`JOINTS`]. Positive leans forward, bends a knee and moves an arm or a thigh backward.
+/// Angles about y \[rad\], in the order of [`JOINTS`]. Positive leans forward, bends a knee and moves an arm or a thigh
+/// backward.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Posture([f64; JOINTS.len()]);
 

@@ -51,7 +51,8 @@ const ANSUR: [[[f64; 3]; 2]; 2] = [
 const Z95: f64 = 1.644_853_626_951_472_2;
 
 impl Size {
-    /// A usual size of adults by its name: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman of 1.501 m and 49 kg.
+    /// A usual size of adults by its name: a man of 1.753 m and 77.7 kg, a man of 1.877 m and 101.2 kg, a woman
+    /// of 1.501 m and 49 kg.
     pub fn like(name: &str) -> Option<Size> {
         let (sex, stature, mass) = match name {
             "male-50" => (Sex::Male, 1.753, 77.7),
@@ -62,8 +63,9 @@ impl Size {
         Some(Size { sex, stature, mass })
     }
 
-    /// The size with this percentile of stature and mass for a sex, from 1 to 99; `None` beyond. Stature and mass are linear in the z of a
-    /// normal distribution between the 5th, 50th and 95th percentile of ANSUR II, and are continued linearly beyond.
+    /// The size with this percentile of stature and mass for a sex, from 1 to 99; `None` beyond. Stature and mass are
+    /// linear in the z of a normal distribution between the 5th, 50th and 95th percentile of ANSUR II, and are
+    /// continued linearly beyond.
     pub fn percentile(sex: Sex, percentile: f64) -> Option<Size> {
         if !(1.0..=99.0).contains(&percentile) {
             return None;

@@ -228,8 +228,8 @@ fn head(person: &Person, body: &Body) -> String {
     )
 }
 
-/// Factor on the torques of joints: 1 for a man of 77.7 kg and 1.753 m. Torques of others are proportional to mass times stature, as in bodies of the
-/// same shape and stress.
+/// Factor on the torques of joints: 1 for a man of 77.7 kg and 1.753 m. Torques of others are proportional to mass
+/// times stature, as in bodies of the same shape and stress.
 fn strength(body: &Body) -> f64 {
     body.mass() / 77.7 * (body.stature / 1.753)
 }

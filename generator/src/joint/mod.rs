@@ -33,11 +33,11 @@
 //!
 //! # A further kind of freedom
 //!
-//! To add a kind, write a file such as `screw.rs`, and add its `mod` and its line in `SPELLINGS` here. No other code asks
-//! for the kind of a freedom. The description language takes the keys from the file, and the model its two
-//! facts; the equations, the frames of links and the pictures use its turn and its advance. Without these three lines
-//! and file there are no screws, and their keys are unknown. Pages and tests must be extended besides:
-//! `docs/reference.md`, `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
+//! To add a kind, write a file such as `screw.rs`, and add its `mod` and its line in `SPELLINGS` here. No other code
+//! asks for the kind of a freedom. The description language takes the keys from the file, and the model its two facts;
+//! the equations, the frames of links and the pictures use its turn and its advance. Without these three lines and file
+//! there are no screws, and their keys are unknown. Pages and tests must be extended besides: `docs/reference.md`,
+//! `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
 
 mod ball;
 mod hinge;

@@ -5,7 +5,8 @@
 //!
 //! Let e = R a, and r the vector from a point of the axis to the origin of the element. Then
 //!
-//! H = (h e + e × r, e),   Ḣ v as for a slider by h θ, then a hinge;   work of a wrench (f, n) about the origin: h e · f + e · (n + r × f)
+//! H = (h e + e × r, e), Ḣ v as for a slider by h θ, then a hinge; work of a wrench (f, n) about the origin: h e · f +
+//! e · (n + r × f)
 
 use crate::description::joint::{Axis, Coordinate, JointKey};
 use crate::description::measure::{LENGTH, Length};

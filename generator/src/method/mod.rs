@@ -18,8 +18,8 @@ pub mod table;
 
 use serde::{Deserialize, Serialize};
 
-/// Declares the methods of a model, in the order of their numbers: each with its name in all targets, and a sentence that
-/// stands there and in the generated text.
+/// Declares the methods of a model, in the order of their numbers: each with its name in all targets, and a sentence
+/// that stands there and in the generated text.
 macro_rules! methods {
     ($($method:ident $name:literal $sentence:literal $(#[$doc:meta])*;)*) => {
         /// A method of a model. A section of the runtime (`bryant_runtime::Section`) is the method of the same name.

@@ -1,7 +1,7 @@
 //! A specification for each emitted method, in the order of the emitted text.
 //!
-//! A new method needs a function here and its line in `TABLE`, and a row in the table of [`Method`], unless it is a part of
-//! another method. A new section needs neither of the two here: `dynamics/sections.rs` says what it computes.
+//! A new method needs a function here and its line in `TABLE`, and a row in the table of [`Method`], unless it is a
+//! part of another method. A new section needs neither of the two here: `dynamics/sections.rs` says what it computes.
 
 use super::inputs::{Argument, Inputs};
 use super::results::{Length, Results};

@@ -44,7 +44,8 @@ pub enum Interpolate {
     /// Straight lines.
     #[default]
     Linear,
-    /// Cubics with a common slope at each point ([`Curve::tangent`](super::Curve::tangent)), monotone wherever the points are.
+    /// Cubics with a common slope at each point ([`Curve::tangent`](super::Curve::tangent)), monotone wherever the
+    /// points are.
     Cubic,
 }
 

@@ -1,5 +1,5 @@
-//! What a model knows of a force law: its constituents, its quantities, and its visible parts. The laws themselves are in
-//! [`law`](crate::law), and no file of this folder names one.
+//! What a model knows of a force law: its constituents, its quantities, and its visible parts. The laws themselves are
+//! in [`law`](crate::law), and no file of this folder names one.
 
 use super::body::{Body, ElementId};
 use super::dimension::Dimension;
@@ -111,7 +111,8 @@ pub enum Measured {
     Undirected,
     /// A component of a vector in absolute axes.
     Component(Component),
-    /// The rotation about an axis of the carrier of this element's joint: 0, 1, 2 for x, y, z; others have no direction.
+    /// The rotation about an axis of the carrier of this element's joint: 0, 1, 2 for x, y, z; others have no
+    /// direction.
     About(ElementId, usize, Side),
     /// A degree of freedom of this element's joint, by its index.
     Freedom(ElementId, usize, Side),

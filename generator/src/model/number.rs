@@ -12,8 +12,8 @@ pub enum Number {
     Constant(f64),
     /// Index into [`Model::parameters`](super::Model::parameters).
     Parameter(usize),
-    /// The value of a curve at time t, by its index in [`Model::curves`](super::Model::curves), which an input has in place
-    /// of the parameter with this index.
+    /// The value of a curve at time t, by its index in [`Model::curves`](super::Model::curves), which an input has in
+    /// place of the parameter with this index.
     OverTime {
         /// The curve, over t \[s\].
         curve: usize,

@@ -7,8 +7,8 @@ use crate::description::tree::MAX_POINTS;
 impl Model {
     /// Lets an input follow points over time \[s; SI\], with straight lines between them and constant beyond them.
     ///
-    /// `input` is its index in [`Model::parameters`]; there are at least two points, at increasing times. The input stays
-    /// a parameter, which nothing depends on.
+    /// `input` is its index in [`Model::parameters`]; there are at least two points, at increasing times. The input
+    /// stays a parameter, which nothing depends on.
     pub fn set_over_time(&mut self, input: usize, points: Vec<[f64; 2]>) {
         let curve = self.curves.len();
         let name = format!("input {}", self.parameters[input].name);

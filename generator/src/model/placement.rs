@@ -1,7 +1,8 @@
 //! The position of an element for given coordinates of its joint, and its motion per velocity, in plain numbers: for
 //! checks of a model and for pictures.
 //!
-//! d ← d + R a h θ,   R ← R (1 + sin θ â + (1 − cos θ) â â),   H = (h e + e × (p_end − p), e)     (hinge: h = 0; slider: no turn, h = 1)
+//! d ← d + R a h θ, R ← R (1 + sin θ â + (1 − cos θ) â â), H = (h e + e × (p_end − p), e) (hinge: h = 0; slider: no
+//! turn, h = 1)
 //!
 //! `twist` gives the same for the equations, as expressions.
 

@@ -113,13 +113,15 @@ pub struct Element {
     pub mass: Number,
     /// Centre of gravity, local frame \[m\].
     pub cg: [Number; 3],
-    /// Principal moments of inertia about the centre of gravity \[kg m²\]. In the plane only the second (about y) is used.
+    /// Principal moments of inertia about the centre of gravity \[kg m²\]. In the plane only the second (about y) is
+    /// used.
     pub inertia: [Number; 3],
     /// Bryant angles of the principal axes relative to the local frame \[rad\]; zero if the axes coincide.
     pub axes: [Number; 3],
     /// Initial absolute Bryant angles on a ball joint \[rad\]. In the plane only the second (about y) is used.
     pub angles: [Number; 3],
-    /// Initial angular velocity on a ball joint: in space ω in absolute axes \[rad/s\]; in the plane only the second component is used.
+    /// Initial angular velocity on a ball joint: in space ω in absolute axes \[rad/s\]; in the plane only the second
+    /// component is used.
     pub angular_velocity: [Number; 3],
     /// Frames with names.
     #[serde(skip_serializing_if = "Vec::is_empty")]

@@ -95,7 +95,8 @@ fn turned<'g>(rotation: &Mat3<'g>, axis: Vec3<'g>, e: Vec3<'g>, angle: Expr<'g>)
     let graph = angle.graph();
     let (sine, cosine) = (angle.sin(), angle.cos());
     let a = axis.0;
-    // for each column r = R e_j: r cos θ + (e × r) sin θ + e (a_j) (1 − cos θ), with e · r = a_j; e × r follows from the other columns
+    // for each column r = R e_j: r cos θ + (e × r) sin θ + e (a_j) (1 − cos θ), with e · r = a_j; e × r follows from
+    // the other columns
     Mat3::from_columns(std::array::from_fn(|j| {
         let (k, l) = ((j + 1) % 3, (j + 2) % 3);
         let r = |i: usize| rotation.column(i);

@@ -1,5 +1,5 @@
-//! Facts about the joint of an element for the equations: its coordinates and velocities, and their values at the start. The
-//! motion itself is in the file of each joint.
+//! Facts about the joint of an element for the equations: its coordinates and velocities, and their values at the
+//! start. The motion itself is in the file of each joint.
 
 use super::ball::{self, Orientation};
 use super::numbers::number;

@@ -5,7 +5,8 @@ use crate::expression::Function;
 use rustc_hash::FxHashMap;
 
 /// A set of methods that are evaluated at the same time and state: their results follow one another in the order of
-/// [`Method::ALL`]. Evaluated together they are cheaper, because they share many operations, above all those of contacts.
+/// [`Method::ALL`]. Evaluated together they are cheaper, because they share many operations, above all those of
+/// contacts.
 ///
 /// A set is greater than another if its last method is a later one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -71,8 +71,9 @@ pub fn problems(robot: &Robot, forest: &Forest) -> Vec<Problem> {
     problems
 }
 
-/// Makes one system of all systems in which a joint follows one of another system: freedoms of different systems cannot be coupled. What carried their roots
-/// becomes its root, an element that rests. Its mass has no influence; it is that of its part, or a stand-in.
+/// Makes one system of all systems in which a joint follows one of another system: freedoms of different systems cannot
+/// be coupled. What carried their roots becomes its root, an element that rests. Its mass has no influence; it is that
+/// of its part, or a stand-in.
 pub fn join(robot: &Robot, forest: &mut Forest, root: usize, part: Option<Part>) {
     let freedoms = freedoms(robot, forest);
     let mut coupled = vec![false; forest.systems.len()];

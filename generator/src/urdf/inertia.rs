@@ -42,12 +42,14 @@ pub fn wrong_tensor(tensor: &Matrix) -> Option<String> {
 
 /// The tensor of a body that is nearest to a symmetric one in the Frobenius norm.
 ///
-/// The set of tensors of bodies is convex and the same in all axes, so the nearest has the same principal axes. Its moments are the point nearest to the given
-/// ones in the cone of (b + c, a + c, a + b) with a, b, c ≥ 0, the second moments of mass.
+/// The set of tensors of bodies is convex and the same in all axes, so the nearest has the same principal axes. Its
+/// moments are the point nearest to the given ones in the cone of (b + c, a + c, a + b) with a, b, c ≥ 0, the second
+/// moments of mass.
 pub fn nearest(tensor: &Matrix) -> Matrix {
     let (moments, axes) = principal(tensor);
     let sums = |[a, b, c]: Vector| [b + c, a + c, a + b];
-    // The normal equations of each face: the columns of the cone have the products 2 with themselves and 1 with each other.
+    // The normal equations of each face: the columns of the cone have the products 2 with themselves and 1 with each
+    // other.
     let [x, y, z] = sums(moments);
     let half = 0.5 * (moments[0] + moments[1] + moments[2]);
     let two = |p: f64, q: f64| ((2.0 * p - q) / 3.0, (2.0 * q - p) / 3.0);

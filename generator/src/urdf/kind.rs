@@ -75,13 +75,15 @@ const FORMATS: &[Format] = &[
     },
 ];
 
-/// Whether a text is XML by its beginning: behind blanks and a byte order mark a `<`, and no second one, which YAML may have.
+/// Whether a text is XML by its beginning: behind blanks and a byte order mark a `<`, and no second one, which YAML may
+/// have.
 pub fn is_xml(text: &str) -> bool {
     let begins = text[before(text)..].strip_prefix('<');
     begins.is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || "?!_".contains(c)))
 }
 
-/// The text of XML in UTF-16, which its first character tells, or in ISO 8859-1, which its declaration says; `None` for anything else.
+/// The text of XML in UTF-16, which its first character tells, or in ISO 8859-1, which its declaration says; `None` for
+/// anything else.
 pub fn decoded(bytes: &[u8]) -> Option<String> {
     let words = |of: fn([u8; 2]) -> u16| {
         let words: Vec<u16> = bytes.chunks_exact(2).map(|b| of([b[0], b[1]])).collect();

@@ -1,12 +1,12 @@
 //! Robots from URDF, the description format of ROS.
 //!
 //! [`import`] turns the text of a URDF file into the text of a model: links become elements, joints become joints, and
-//! damping, friction and limits become joint forces. A URDF file has no forces, no initial state and no gravity. So gravity of
-//! 9.81 m/s² along −z is added, and all joints start at 0.
+//! damping, friction and limits become joint forces. A URDF file has no forces, no initial state and no gravity. So
+//! gravity of 9.81 m/s² along −z is added, and all joints start at 0.
 //!
-//! `xml.rs` makes XML of the text, `reader.rs`, `joint.rs` and `rotor.rs` read it into the links and joints of `robot.rs`, and `inspect.rs` lists what they do not read, by the table in
-//! `vocabulary.rs`. `tree.rs` turns links and joints into systems, `repair.rs` changes their inertia on demand, and
-//! `write.rs` writes the systems.
+//! `xml.rs` makes XML of the text, `reader.rs`, `joint.rs` and `rotor.rs` read it into the links and joints of
+//! `robot.rs`, and `inspect.rs` lists what they do not read, by the table in `vocabulary.rs`. `tree.rs` turns links and
+//! joints into systems, `repair.rs` changes their inertia on demand, and `write.rs` writes the systems.
 
 mod coupling;
 // Public for the tests in `tests/it`, which are compiled apart from this crate.
@@ -67,8 +67,8 @@ pub struct Imported {
     pub yaml: String,
     /// What was left out and what the user should know, one sentence each.
     pub notes: Vec<String>,
-    /// Lines of the model, from 1, in their order, each with the place in the URDF file of the link or joint that it comes
-    /// from.
+    /// Lines of the model, from 1, in their order, each with the place in the URDF file of the link or joint that it
+    /// comes from.
     pub origins: Vec<(usize, TextPlace)>,
 }
 

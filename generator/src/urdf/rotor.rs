@@ -1,7 +1,8 @@
 //! The inertia of rotors, which transmissions give.
 //!
-//! ROS writes `<motorInertia>` and `<mechanicalReduction>`, Drake `<drake:rotor_inertia value="…"/>` and `<drake:gear_ratio value="…"/>`. A rotor of the inertia J
-//! whose angle is i times the coordinate of the joint adds ½ J i² q̇² to the kinetic energy: the `armature` of the freedom is J i².
+//! ROS writes `<motorInertia>` and `<mechanicalReduction>`, Drake `<drake:rotor_inertia value="…"/>` and
+//! `<drake:gear_ratio value="…"/>`. A rotor of the inertia J whose angle is i times the coordinate of the joint adds ½
+//! J i² q̇² to the kinetic energy: the `armature` of the freedom is J i².
 
 use super::inspect::misspelt;
 use super::reader::Reader;

@@ -1,9 +1,9 @@
 //! Turns links and joints into systems of elements.
 //!
-//! All positions are measured in one frame: that of the root link, with all joints at 0. Links that are connected by fixed joints
-//! are one body. The first of its links that has a mass is an element, its other links with mass are welded to it, and links
-//! without mass are frames. A body without mass between two moving joints is no element; its joints become a list. For that their
-//! axes must meet in one point.
+//! All positions are measured in one frame: that of the root link, with all joints at 0. Links that are connected by
+//! fixed joints are one body. The first of its links that has a mass is an element, its other links with mass are
+//! welded to it, and links without mass are frames. A body without mass between two moving joints is no element; its
+//! joints become a list. For that their axes must meet in one point.
 
 use super::coupling;
 use super::inertia::{Part, together, wrong_tensor, wrong_with};
@@ -527,7 +527,8 @@ impl Builder<'_> {
         }
     }
 
-    /// The point in which all axes of rotation of a list of joints meet, with all joints at 0; it is a problem if they do not.
+    /// The point in which all axes of rotation of a list of joints meet, with all joints at 0; it is a problem if they
+    /// do not.
     fn meeting_point(&mut self, joints: &[usize]) -> Vector {
         let robot = self.robot;
         let turns: Vec<usize> = joints
@@ -584,7 +585,8 @@ impl Builder<'_> {
     }
 }
 
-/// Two directions perpendicular to an axis: x and y of a plane with the normal z, otherwise the next axes in cyclic order.
+/// Two directions perpendicular to an axis: x and y of a plane with the normal z, otherwise the next axes in cyclic
+/// order.
 fn across(axis: Vector) -> (Vector, Vector) {
     let unit = |i: usize| -> Vector { std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }) };
     let largest = (0..3)

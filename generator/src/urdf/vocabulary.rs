@@ -1,7 +1,7 @@
 //! What a URDF file may say: every element and attribute, how often, and what becomes of it.
 //!
-//! The names are those of the readers of ROS (urdfdom), with the extensions of Gazebo, Drake and others that public files have. What stands in
-//! no table here is listed as unknown; what is misspelt is refused.
+//! The names are those of the readers of ROS (urdfdom), with the extensions of Gazebo, Drake and others that public
+//! files have. What stands in no table here is listed as unknown; what is misspelt is refused.
 
 /// What becomes of a part of a file.
 #[derive(Clone, Copy)]
@@ -25,7 +25,8 @@ pub struct Element {
     pub once: bool,
     pub fate: Fate,
     pub attributes: &'static [(&'static str, Fate)],
-    /// What may stand in it. In an element that is read, everything else is unknown; in others it is listed with the element.
+    /// What may stand in it. In an element that is read, everything else is unknown; in others it is listed with the
+    /// element.
     pub children: &'static [Element],
 }
 

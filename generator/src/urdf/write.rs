@@ -84,7 +84,8 @@ fn vector(v: Vector, size: f64) -> String {
     list(&v.map(|c| without_rounding(c, size)))
 }
 
-/// The number with the fewest decimals that differs from a value only by the rounding of sums of numbers of size `size`.
+/// The number with the fewest decimals that differs from a value only by the rounding of sums of numbers of size
+/// `size`.
 fn without_rounding(value: f64, size: f64) -> f64 {
     let decimals = (0..=17).map(|digits| format!("{value:.digits$}").parse().unwrap_or(value));
     let mut close = decimals.filter(|short: &f64| (short - value).abs() <= ROUNDING * size);
@@ -121,8 +122,8 @@ fn is_limit(value: f64) -> bool {
     value > 0.0 && value.is_finite()
 }
 
-/// A comment on the limits of a joint: those of its coordinate unless they are stops, and those of its motor unless it is
-/// an input.
+/// A comment on the limits of a joint: those of its coordinate unless they are stops, and those of its motor unless it
+/// is an input.
 fn limits(joint: &Joint, are_stops: bool, is_input: bool) -> Option<String> {
     let limits = joint.limits?;
     let (unit, effort) = match joint.kind {
@@ -463,8 +464,8 @@ impl Writer<'_> {
         writeln!(text, " }}")
     }
 
-    /// The links that are parts of an element, as points: those without mass that are fixed to it, and those that are not
-    /// a body by themselves.
+    /// The links that are parts of an element, as points: those without mass that are fixed to it, and those that are
+    /// not a body by themselves.
     fn points(&self, element: &Element) -> Vec<String> {
         let systems = &self.forest.systems;
         let is_here = |(s, e): (usize, usize)| systems[s].elements[e].link == element.link;
@@ -485,7 +486,8 @@ impl Writer<'_> {
             .collect()
     }
 
-    /// The meshes of all links of an element, which has the name of this link, or of all links at rest, each with its link.
+    /// The meshes of all links of an element, which has the name of this link, or of all links at rest, each with its
+    /// link.
     fn meshes(&self, element: Option<usize>, origin: Vector) -> Vec<(usize, String)> {
         let links = self.robot.links.iter().enumerate();
         let shown = links.filter(|(_, link)| !link.meshes.is_empty());
@@ -513,7 +515,8 @@ impl Writer<'_> {
         each.map(text).collect()
     }
 
-    /// The link whose name the element has that a link moves with, `Some(None)` of a link at rest, and `None` of one that is no part of an element.
+    /// The link whose name the element has that a link moves with, `Some(None)` of a link at rest, and `None` of one
+    /// that is no part of an element.
     fn carrier(&self, link: usize) -> Option<Option<usize>> {
         let systems = &self.forest.systems;
         let mut elements = systems.iter().flat_map(|system| &system.elements);

@@ -1,7 +1,8 @@
 //! The XML of a URDF file, with the place of everything in the text as it was given.
 //!
-//! The readers of ROS know no namespaces and are lenient with blanks and comments. So three things that are no XML are mended before it is parsed: blanks
-//! before the beginning are left out, prefixes that are not declared are declared, and `--` in comments is overwritten.
+//! The readers of ROS know no namespaces and are lenient with blanks and comments. So three things that are no XML are
+//! mended before it is parsed: blanks before the beginning are left out, prefixes that are not declared are declared,
+//! and `--` in comments is overwritten.
 
 use super::kind::{self, Head};
 use super::robot::TextPlace;

@@ -1,8 +1,8 @@
-//! An effect that is off leaves no trace: the text of a scene with an effect switched off, in every way that the language has, equals byte
-//! for byte the text of a scene that never mentions it.
+//! An effect that is off leaves no trace: the text of a scene with an effect switched off, in every way that the
+//! language has, equals byte for byte the text of a scene that never mentions it.
 //!
-//! The [table](cases) has a case for every effect. The test lists all words of the vocabulary and fails if a term of a law, a kind of force or
-//! a kind of effect has no case.
+//! The [table](cases) has a case for every effect. The test lists all words of the vocabulary and fails if a term of a
+//! law, a kind of force or a kind of effect has no case.
 
 mod cases;
 
@@ -260,8 +260,9 @@ fn law(model: &Model, function: Function, a: &[f64]) -> f64 {
 
 /// With nothing left out, the motion is that of the scene: a planar state in space has the same accelerations.
 ///
-/// Both routes are backward stable and the numbers of the two models are the same. So the difference is rounding times the condition of S,
-/// which is about 1e4 for these trees: 1e4 × 1e2 operations in a row × ε ≈ 2e-10 of the largest acceleration.
+/// Both routes are backward stable and the numbers of the two models are the same. So the difference is rounding times
+/// the condition of S, which is about 1e4 for these trees: 1e4 × 1e2 operations in a row × ε ≈ 2e-10 of the largest
+/// acceleration.
 #[test]
 fn nothing_left_out_moves_as_the_scene_does() {
     for path in [
@@ -329,7 +330,8 @@ fn nothing_left_out_moves_as_the_scene_does() {
     }
 }
 
-/// An effect that vanishes by structure costs nothing, and an effect that is in costs something: the graph itself shows this.
+/// An effect that vanishes by structure costs nothing, and an effect that is in costs something: the graph itself shows
+/// this.
 #[test]
 fn effects_of_inertia_cost_nothing_where_they_vanish() {
     let mut compared = 0;

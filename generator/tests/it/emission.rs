@@ -33,7 +33,8 @@ fn models() -> Vec<Model> {
     ]
 }
 
-/// A model in which every number is a parameter, with names that Rust does not allow or that the emitted text uses itself.
+/// A model in which every number is a parameter, with names that Rust does not allow or that the emitted text uses
+/// itself.
 fn parametric() -> Model {
     let text = "
 model: parametric
@@ -79,8 +80,8 @@ fn text(model: &Model, options: &Options) -> String {
     rust::module(model, &derive(model), options)
 }
 
-/// An arbitrary law that depends on all arguments and on its name, because the test checks only which law is called with which arguments.
-/// Only a choice is real, because rotations are made with it.
+/// An arbitrary law that depends on all arguments and on its name, because the test checks only which law is called
+/// with which arguments. Only a choice is real, because rotations are made with it.
 fn law(name: &str, arguments: &[f64]) -> f64 {
     if let ("force::switch::choose", &[a, b, then, otherwise]) = (name, arguments) {
         return if a < b { then } else { otherwise };
@@ -431,7 +432,8 @@ fn every_place_has_a_name_of_its_own() {
     );
 }
 
-/// The whole state is one argument, so that its parts do not change signatures: models with memory (Bryant angles) and without.
+/// The whole state is one argument, so that its parts do not change signatures: models with memory (Bryant angles) and
+/// without.
 #[test]
 fn accelerations_of_a_state_have_one_signature() {
     for model in models() {

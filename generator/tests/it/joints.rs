@@ -158,7 +158,8 @@ fn tree(dimension: u32, coordinates: &str, reference: &str, joints: [&str; 4]) -
     )
 }
 
-/// Checks S, r_s and v̇ of a model: v̇ by both routes against S⁻¹ (r_s + r_k), and S and r_s against Lagrange if v = q̇.
+/// Checks S, r_s and v̇ of a model: v̇ by both routes against S⁻¹ (r_s + r_k), and S and r_s against Lagrange if v =
+/// q̇.
 fn check(text: &str, states: usize) {
     let model = read(text);
     let [equations, by_matrix] =
@@ -330,7 +331,8 @@ fn freedoms_that_follow_others_and_rotors_in_space() {
                         follows(follower, "b, freedom: angle").replacen("{ ", "{ name: q, ", 1)
                     );
                     let led = "[{ hinge: z, armature: 0.2, name: angle }, { slider: x, follows: { joint: b, freedom: angle, ratio: 0.4 } }]";
-                    // outboard of the leader; beside it; inboard of it; two followers of one leader, in a chain of followers
+                    // outboard of the leader; beside it; inboard of it; two followers of one leader, in a chain of
+                    // followers
                     for joints in [
                         [root, leader, &of_a, other],
                         [root, leader, other, &of_b],

@@ -1,4 +1,5 @@
-//! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them the generator would choose.
+//! S, r_s, r_k and the accelerations in the frames of links, compared with those in absolute axes, whichever of them
+//! the generator would choose.
 
 use crate::share::share;
 use bryant_generator::dynamics::augmented_body::AugmentedTree;
@@ -180,7 +181,8 @@ pub fn tree(numbers: &mut Numbers, coordinates: &str, kind: TreeKind) -> String 
     text + "run: { duration: 1 s, every: 0.1 s }\n"
 }
 
-/// The same in the plane. The orientation of one element at least is not absolute: other systems are no concern of link frames.
+/// The same in the plane. The orientation of one element at least is not absolute: other systems are no concern of link
+/// frames.
 fn tree_in_the_plane(numbers: &mut Numbers) -> String {
     let count = 2 + numbers.below(6);
     let reference = ["free", "fixed", "{ on: car, at: [0.5, 1] }"][numbers.below(3)];
@@ -271,8 +273,8 @@ struct Said {
     ways: [Vec<NodeId>; 2],
 }
 
-/// The largest difference between link frames and absolute axes, relative to the largest value: for random choices, for frames that a search tries,
-/// and, if `all` is true, for those that a search finds.
+/// The largest difference between link frames and absolute axes, relative to the largest value: for random choices, for
+/// frames that a search tries, and, if `all` is true, for those that a search finds.
 fn apart(text: &str, numbers: &mut Numbers, kind: TreeKind, all: bool) -> Vec<(&'static str, f64)> {
     let model = read(text);
     let graph = Graph::new();
@@ -486,7 +488,8 @@ fn axes_that_are_almost_parallel_cost_no_digits() {
     compare(11, 200, TreeKind::Almost, &["quaternion"]);
 }
 
-/// For a chain of unlike bodies, the links that the search for frames brings into frames, trial by trial, and those whose equations it derives.
+/// For a chain of unlike bodies, the links that the search for frames brings into frames, trial by trial, and those
+/// whose equations it derives.
 fn work(links: usize, axes: &[&str]) -> [usize; 2] {
     let element = |k: usize| {
         let on = match k {
@@ -527,12 +530,14 @@ fn a_search_takes_as_long_for_each_link_of_a_long_chain_as_of_a_short_one() {
     // parallel axes, along which a part of the chain reaches furthest, and others
     for axes in [&["y"][..], &["y", "x", "z"]] {
         let [short, long] = [50, 100].map(|links| work(links, axes));
-        // the ends of a chain have smaller parts: of 16 links at each end at most, which is a third of 50 and a sixth of 100
+        // the ends of a chain have smaller parts: of 16 links at each end at most, which is a third of 50 and a sixth
+        // of 100
         assert!(
             long[0] < 2 * short[0] * 5 / 4,
             "{axes:?}: {short:?} {long:?}"
         );
-        // most parts in the middle have shapes of parts before, whichever side of its axis each body is on; else twice as many would be derived
+        // most parts in the middle have shapes of parts before, whichever side of its axis each body is on; else twice
+        // as many would be derived
         assert!(long[1] < short[1] * 3 / 2, "{axes:?}: {short:?} {long:?}");
     }
 }

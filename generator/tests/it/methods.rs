@@ -9,7 +9,8 @@ use bryant_generator::read;
 use std::collections::BTreeSet;
 use std::path::Path;
 
-/// Models that have all there is among them: curves that parameters stretch, pivots that may vanish, event functions, charts, states of laws.
+/// Models that have all there is among them: curves that parameters stretch, pivots that may vanish, event functions,
+/// charts, states of laws.
 const MODELS: [&str; 6] = [
     "models/child-seat.yaml",
     "tests/models/curves.yaml",

@@ -1,4 +1,5 @@
-//! Run-time parameters cost only the operations that depend on them: values that depend on parameters alone are computed once.
+//! Run-time parameters cost only the operations that depend on them: values that depend on parameters alone are
+//! computed once.
 
 use bryant_generator::dynamics::derive;
 use bryant_generator::effect::general;

@@ -34,7 +34,8 @@ fn columns_are_the_rates_of_the_place() {
         let q: Vec<f64> = (0..freedoms.len()).map(|j| 0.9 - 0.6 * j as f64).collect();
         let (rotation, end) = placed(from, &freedoms, &q, &[]);
         let columns = columns(from, &freedoms, &q, end, &[]);
-        // the error of a central difference is h²/6 times a third derivative, which is below 10 here, plus rounding over h
+        // the error of a central difference is h²/6 times a third derivative, which is below 10 here, plus rounding
+        // over h
         let (h, tolerance) = (1e-5, 1e-9);
         for (j, column) in columns.iter().enumerate() {
             let at = |step: f64| {

@@ -1,5 +1,5 @@
-//! Short forms: lists, mirror images, named surfaces and groups, instances. Their generated text equals byte for byte that of the long
-//! form, whether the program writes the long form (`check --long`) or a person.
+//! Short forms: lists, mirror images, named surfaces and groups, instances. Their generated text equals byte for byte
+//! that of the long form, whether the program writes the long form (`check --long`) or a person.
 
 use bryant_generator::dynamics::derive;
 use bryant_generator::equations::Equations;
@@ -203,7 +203,8 @@ outputs:
   - { name: strap of the right side, of: belt strap-right, what: force }
 ";
 
-/// Joints with axes: sliders are polar, hinges axial, a screw gets the other hand, and a follower follows the image of its leader.
+/// Joints with axes: sliders are polar, hinges axial, a screw gets the other hand, and a follower follows the image of
+/// its leader.
 // Long: each model twice, in short and in full, in space and in the plane.
 #[test]
 fn joints_with_axes_have_mirror_images() {

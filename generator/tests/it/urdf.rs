@@ -1,6 +1,7 @@
 //! URDF: what is read, what is refused with which place, and the resulting model.
 //!
-//! The refused texts follow the tests of the ROS parser (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of our own.
+//! The refused texts follow the tests of the ROS parser (urdfdom, `test/assets/bad_*.urdf`), one case each, in texts of
+//! our own.
 
 mod coupling;
 mod digits;
@@ -499,7 +500,8 @@ fn the_inertia_of_links_fixed_together_is_judged_as_one() {
         "{:?}",
         found.notes
     );
-    // 0.04 about x is above 0.02 + 0.015 for a alone, but not for both together (Steiner, 2 kg each, 0.25, 0 and 0.1 m from the middle)
+    // 0.04 about x is above 0.02 + 0.015 for a alone, but not for both together (Steiner, 2 kg each, 0.25, 0 and 0.1 m
+    // from the middle)
     let elements = "      - { name: a, joint: { hinge: y }, mass: 4, cg: [0.35, 0, 0.1], inertia: [0.09, 0.33, 0.28, 0, -0.1, 0] }\n";
     same(&read(&found.yaml), &of_yaml(elements, "fixed"));
     let light = refused(&parts("mass value=\"1e-6\"").replace(

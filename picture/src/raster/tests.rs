@@ -110,7 +110,8 @@ fn text_is_drawn_without_fonts_of_the_system() {
     let equals = ink(&label("=", 2.0, Anchor::Start)) / 4.0;
     let outline = 1282.0 * (168.0 + 170.0) * (16.0f64 / 2048.0).powi(2);
     assert!((equals / outline - 1.0).abs() < 0.01, "{equals}, {outline}");
-    // an anchor moves the text by its width, which is a whole number of pixels here: 2048 units are 32 pixels, and "—" has 2048
+    // an anchor moves the text by its width, which is a whole number of pixels here: 2048 units are 32 pixels, and "—"
+    // has 2048
     let starts = points(&label("—", 2.0, Anchor::Start)).unwrap();
     assert_eq!(starts, points(&label("—", 10.0, Anchor::Middle)).unwrap());
     assert_eq!(starts, points(&label("—", 18.0, Anchor::End)).unwrap());

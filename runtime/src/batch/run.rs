@@ -218,8 +218,8 @@ pub(super) fn each(lanes: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// A piece of work of the loop that is compiled as a function of its own, because it is long and called from several places,
-/// or rarely.
+/// A piece of work of the loop that is compiled as a function of its own, because it is long and called from several
+/// places, or rarely.
 pub(super) trait Work<T: Several> {
     /// The result.
     type Output;

@@ -124,7 +124,8 @@ impl<T: Real, S: Vector<T>> Change<T> for Sum<'_, T, S> {
 mod tests {
     use super::{ORDER, OVER, WEIGHTS};
 
-    /// Σ bⱼ (−j)ᵐ = ∫₀¹ tᵐ dt for all degrees m up to five, in whole numbers. For degree six it is off by 19087/60480 · 6!.
+    /// Σ bⱼ (−j)ᵐ = ∫₀¹ tᵐ dt for all degrees m up to five, in whole numbers. For degree six it is off by 19087/60480 ·
+    /// 6!.
     #[test]
     fn the_weights_integrate_polynomials() {
         for degree in 0..=6_u32 {
@@ -138,7 +139,8 @@ mod tests {
         }
     }
 
-    /// How far the numerical solution of y' = z y departs from the circle or the decay of the exact solution, after so many steps of length 1.
+    /// How far the numerical solution of y' = z y departs from the circle or the decay of the exact solution, after so
+    /// many steps of length 1.
     fn growth([re, im]: [f64; 2], steps: u32) -> f64 {
         let times = |[a, b]: [f64; 2], [c, d]: [f64; 2]| [a * c - b * d, a * d + b * c];
         let exact = |j: f64| {
@@ -161,7 +163,8 @@ mod tests {
 
     #[test]
     fn decays_and_swings_are_kept_up_to_the_limits_that_are_said() {
-        // beyond a limit, rounding excites another root, which grows by 0.1 % a step or more: by at least e^50 in 50 000 steps
+        // beyond a limit, rounding excites another root, which grows by 0.1 % a step or more: by at least e^50 in 50
+        // 000 steps
         let limit = OVER * 2.0 / WEIGHTS.iter().map(|w| w.abs()).sum::<f64>();
         assert!((limit - 0.0877).abs() < 5e-5, "{limit}");
         assert!(growth([-0.99 * limit, 0.0], 50_000) < 1e-9);
@@ -172,7 +175,8 @@ mod tests {
         for swing in [0.114, 0.1, 0.05] {
             let steps = 50_000;
             let grown = growth([0.0, swing], steps).ln() / f64::from(steps);
-            // the next term is of (ωh)¹⁰: about ten times (ωh)² of this one; then the root of the sum of a rounding in each step
+            // the next term is of (ωh)¹⁰: about ten times (ωh)² of this one; then the root of the sum of a rounding in
+            // each step
             let told = 0.8 * swing.powi(8);
             let bound = 10.0 * swing * swing * told + f64::EPSILON;
             assert!((grown - told).abs() < bound, "{swing}: {grown:e} {told:e}");

@@ -11,8 +11,8 @@ use crate::real::{Mask, Number};
 use crate::{Info, Real, StateKind};
 
 /// The error allowed in one step, for each kind of entry of the state. For velocities and states of laws it is
-/// absolute + relative · |y|. For positions and angles it is the absolute part alone, because their size says only where the
-/// origin is and how often something turned.
+/// absolute + relative · |y|. For positions and angles it is the absolute part alone, because their size says only
+/// where the origin is and how often something turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerances {
     /// Relative part, below 1.
@@ -82,9 +82,9 @@ impl Tolerances {
     }
 
     /// These tolerances, but with at most 0.3 of the largest acceleration for an oscillation that is too fast for the
-    /// steps. At a tolerance above 10⁻⁵ it would grow further, until belts and contacts turn from loading to unloading in
-    /// every step: then a run at 10⁻² takes more steps than one at 10⁻⁷. Two runs with the same share have the same error
-    /// in a motion that is so fast, so one of them is no check of the other.
+    /// steps. At a tolerance above 10⁻⁵ it would grow further, until belts and contacts turn from loading to unloading
+    /// in every step: then a run at 10⁻² takes more steps than one at 10⁻⁷. Two runs with the same share have the same
+    /// error in a motion that is so fast, so one of them is no check of the other.
     #[must_use]
     pub const fn calm(self) -> Tolerances {
         Tolerances {

@@ -161,7 +161,8 @@ mod tests {
         (*seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    /// Solves (diagonal · I − matrix) x = b. The first `size` rows count, and the first `fixed` pivots stay in their places.
+    /// Solves (diagonal · I − matrix) x = b. The first `size` rows count, and the first `fixed` pivots stay in their
+    /// places.
     fn solve(diagonal: f64, matrix: &[f64], [size, fixed]: [usize; 2], b: &mut [f64]) {
         // whatever the memory holds before
         let mut memory = vec![f64::NAN; Factored::<f64>::length(b.len())];

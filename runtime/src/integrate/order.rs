@@ -1,8 +1,8 @@
 //! The order conditions of rooted trees (Butcher 1963): Σ b_i Φ_i(τ) = 1/γ(τ) for every tree τ of at most p nodes.
 //!
 //! For a tree, Φ is the product, over the children of its root, of Σ_j a_ij Φ_j(child). For a Rosenbrock method a_ij is
-//! β_ij = α_ij + γ_ij where the root has a single child, and α_ij where it has several (Hairer & Wanner, *Solving ODEs II*,
-//! IV.7).
+//! β_ij = α_ij + γ_ij where the root has a single child, and α_ij where it has several (Hairer & Wanner, *Solving ODEs
+//! II*, IV.7).
 
 use super::Formula;
 use super::acceleration::limits;
@@ -51,7 +51,8 @@ fn trees(nodes: usize) -> Vec<Tree> {
         .collect()
 }
 
-/// All forests of `nodes` nodes, in descending order. Their trees have at most `largest` nodes and are not beyond `bound`.
+/// All forests of `nodes` nodes, in descending order. Their trees have at most `largest` nodes and are not beyond
+/// `bound`.
 fn forests(nodes: usize, largest: usize, bound: Option<&Tree>) -> Vec<Vec<Tree>> {
     if nodes == 0 {
         return vec![vec![]];
@@ -152,8 +153,8 @@ fn padded(m: &ErasedTableau, weights: &[f64]) -> Vec<f64> {
     all
 }
 
-/// Checks the nodes and the orders of the result, the embedded result and the interpolant, and that these orders are not
-/// higher.
+/// Checks the nodes and the orders of the result, the embedded result and the interpolant, and that these orders are
+/// not higher.
 fn check(m: &ErasedTableau, order: usize) {
     let a = matrix(m);
     for (i, c) in m.c.iter().enumerate() {
@@ -279,7 +280,8 @@ fn farthest(m: &ErasedTableau) -> f64 {
     };
     let directions =
         (0..=3600).map(|i| std::f64::consts::FRAC_PI_2 * (1.0 + f64::from(i) / 3600.0));
-    // at least |R'| on and within a circle, so that |R| is above 1 on the way from a point where it is above 1, as far as its excess over this slope
+    // at least |R'| on and within a circle, so that |R| is above 1 on the way from a point where it is above 1, as far
+    // as its excess over this slope
     let slope = |r: f64| {
         let terms = polynomial.iter().enumerate().skip(1);
         terms.fold(0.0, |sum, (k, c): (usize, &f64)| {
@@ -315,8 +317,8 @@ fn limits_of_stability_are_those_of_the_polynomials() {
     close(farthest(&ErasedTableau::of::<Dop853>()), Formula::Dop853);
 }
 
-/// (|R(iy)|, |P(iy)|) of an undamped oscillation: what a step makes of it, and how far the last state before the end for the time of the end is from
-/// the end.
+/// (|R(iy)|, |P(iy)|) of an undamped oscillation: what a step makes of it, and how far the last state before the end
+/// for the time of the end is from the end.
 fn swings(m: &ErasedTableau, y: f64) -> [f64; 2] {
     let times = |(re, im): (f64, f64)| (-y * im, y * re);
     let mut rates: Vec<(f64, f64)> = Vec::new();

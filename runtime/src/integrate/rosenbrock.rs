@@ -429,7 +429,8 @@ pub(crate) mod original {
 mod tests {
     use super::{slopes, weights};
 
-    /// The weights are polynomials of order 4, for which a central difference of 1e-4 is exact to its square and to rounding over it.
+    /// The weights are polynomials of order 4, for which a central difference of 1e-4 is exact to its square and to
+    /// rounding over it.
     #[test]
     fn slopes_are_the_derivatives_of_the_weights() {
         for theta in [0.0, 0.1, 0.5, 0.9, 1.0] {

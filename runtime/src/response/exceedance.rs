@@ -3,8 +3,8 @@
 //! To every duration belongs the level that the size of the signal exceeds for this long in total. The answer is the
 //! largest ratio of such a level to the limit of its duration. The size is linear between samples. So between
 //! neighbouring values of samples the duration is linear in the level, between corners the limit is linear in the
-//! duration, and a quotient of two linear functions has no maximum inside. The largest ratio is at the value of a sample,
-//! or at a corner of the limit.
+//! duration, and a quotient of two linear functions has no maximum inside. The largest ratio is at the value of a
+//! sample, or at a corner of the limit.
 
 use crate::real::mapped;
 use crate::{Mask, Real};

@@ -56,7 +56,8 @@ impl Quadrature {
     }
 }
 
-/// Evaluates what flows into the balances at a time and a state: the powers, and the external wrench if a system is free.
+/// Evaluates what flows into the balances at a time and a state: the powers, and the external wrench if a system is
+/// free.
 pub(crate) fn exchange<T: Real>(
     model: &dyn Dynamics<T>,
     (t, y): (T, &[T]),

@@ -11,12 +11,12 @@
 //! something: the controller and the first step (`integrate::control`), how a step meets a time (`schedule`), where an
 //! event function changes its sign and what hides within a step (`event`, `excursion`), which contacts a step may pass
 //! over (`onset`), when a balance does not close (`watch::account`), and what is evaluated where a step ends
-//! ([`Dynamics::sections`]). The shared parts either compute with a number type, which is `f64` here and a register in a
-//! batch, or they ask for values and are told them. The loops around them differ. In a batch, lanes use selection where
-//! a run branches; they take scenarios one after the other, pack places of several lanes into one register, and carry
-//! derivatives of event times. A run takes any scalar, implicit steppers and up to sixteen stages; it approaches kinks,
-//! reports what decided the length of its steps, can be left and entered again, and needs no allocator. A common loop
-//! would have to do all of this with masks, also for scalars that are no lanes.
+//! ([`Dynamics::sections`]). The shared parts either compute with a number type, which is `f64` here and a register in
+//! a batch, or they ask for values and are told them. The loops around them differ. In a batch, lanes use selection
+//! where a run branches; they take scenarios one after the other, pack places of several lanes into one register, and
+//! carry derivatives of event times. A run takes any scalar, implicit steppers and up to sixteen stages; it approaches
+//! kinks, reports what decided the length of its steps, can be left and entered again, and needs no allocator. A common
+//! loop would have to do all of this with masks, also for scalars that are no lanes.
 
 pub(crate) mod balance;
 mod diagnostic;

@@ -113,9 +113,9 @@ impl<'a, 'w, T: Real> Run<'a, 'w, T> {
         })
     }
 
-    /// A run whose inputs change: as [`Run::new`], of a model that [`Driven::set_inputs`] may change between two calls of
-    /// [`advance_to`](Self::advance_to). Each call ends a step at its time, so that inputs are held from one call to the
-    /// next. A sample is that just before its inputs change.
+    /// A run whose inputs change: as [`Run::new`], of a model that [`Driven::set_inputs`] may change between two calls
+    /// of [`advance_to`](Self::advance_to). Each call ends a step at its time, so that inputs are held from one call to
+    /// the next. A sample is that just before its inputs change.
     ///
     /// ```
     /// # use bryant_runtime::{Adjustable, Failure, Info, Settings, simulate::{Driven, Run, workspace_length}};

@@ -1,7 +1,7 @@
 //! The time loop of all methods.
 //!
 //! ```text
-//! length of the step ← pace (fixed, or the controller's), cut to meet the next kink in time, or the way to a kink of a force law
+//! length of the step ← pace (fixed, or the controller's), cut to meet the next kink in time, or a kink of a force law
 //! take it
 //!   error too large, or a kink crossed that matters   → again, shorter
 //!   else an event function changed its sign                     → ends there

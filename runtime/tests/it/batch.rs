@@ -14,7 +14,8 @@ use bryant_runtime::{
     Tolerances,
 };
 
-/// A mass of 1 kg that flies at a spring, whose latch makes it stiffer from a certain depth on, while it is pushed from 0.1 s on.
+/// A mass of 1 kg that flies at a spring, whose latch makes it stiffer from a certain depth on, while it is pushed
+/// from 0.1 s on.
 #[derive(Clone, Copy, Debug)]
 struct Bumper<T = f64> {
     parameters: Parameters<T>,
@@ -443,8 +444,8 @@ fn runs_are_those_of_the_ordinary_time_loop() {
     let runs = doubles(Width::widest(), &adaptive(), scenarios(24)).unwrap();
     for (row, (ended, values)) in scenarios(24).into_iter().zip(&runs) {
         assert_eq!((ended.status, ended.t), (Status::Done, 0.4));
-        // either errs by at most a tolerance a step, which the motion does not amplify: two or three periods of an oscillator, whose
-        // force is up to 650 N/m times the place
+        // either errs by at most a tolerance a step, which the motion does not amplify: two or three periods of an
+        // oscillator, whose force is up to 650 N/m times the place
         let bound = 2.0 * f64::from(ended.steps) * TOLERANCE;
         let reference = alone(row, TOLERANCE);
         for (k, (ours, other)) in values.iter().zip(&reference).enumerate() {
@@ -660,9 +661,9 @@ fn fixed_steps_have_their_order_and_estimate_their_error() {
             let error = |place: f64| (place - exact).abs();
             let [coarse, fine] = [long.responses[i], short.responses[i]].map(error);
             assert_eq!((long.rows[i].steps, short.rows[i].steps), (35, 70));
-            // Of e⁻ᶻ(R(z) − eᶻ), R the stability polynomial, the second term is 1.72 z times the first for Dormand & Prince, whose 6th
-            // coefficient is 1/600, and less for the others: with |z| = ωh ≤ 0.07 and 1/1.3 < |tan ωt| < 1.3 at most 0.16 of it at the
-            // longer step, half of that at the shorter: log₂(0.84/0.92) = −0.13
+            // Of e⁻ᶻ(R(z) − eᶻ), R the stability polynomial, the second term is 1.72 z times the first for Dormand &
+            // Prince, whose 6th coefficient is 1/600, and less for the others: with |z| = ωh ≤ 0.07 and 1/1.3 < |tan
+            // ωt| < 1.3 at most 0.16 of it at the longer step, half of that at the shorter: log₂(0.84/0.92) = −0.13
             let seen = (coarse / fine).log2();
             assert!((seen - f64::from(order)).abs() < 0.2, "{method:?} {seen}");
             let told = short.rows[i].error * exact.abs();
@@ -751,8 +752,8 @@ fn derivatives_are_those_of_differences_across_events() {
         let (right, left) = (moved(h), moved(-h));
         // the place at the end, and half way
         for k in [20, 40] {
-            // of the difference: h² times a third derivative below 10⁴ of what moves by 0.1 m, and 10⁻¹³ × some hundred steps / h; of
-            // ours: 10⁻⁹ × some hundred steps
+            // of the difference: h² times a third derivative below 10⁴ of what moves by 0.1 m, and 10⁻¹³ × some hundred
+            // steps / h; of ours: 10⁻⁹ × some hundred steps
             let difference = (right[k] - left[k]) / (2.0 * h);
             let ours = values[k].slope;
             assert!(
@@ -806,8 +807,8 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
         let (right, left) = (moved(h), moved(-h));
         for (k, (_, response)) in responses.iter().enumerate() {
             let difference = (right[k] - left[k]) / (2.0 * h);
-            // of the difference: h² times what bends, and 10⁻¹³ × some hundred steps / h of values up to 20; of ours: 10⁻⁹ × some
-            // hundred steps
+            // of the difference: h² times what bends, and 10⁻¹³ × some hundred steps / h of values up to 20; of ours:
+            // 10⁻⁹ × some hundred steps
             let bound = 1e-5 * found.values[k].abs().max(1.0);
             assert!(
                 (slopes[k] - difference).abs() < bound,
@@ -815,9 +816,9 @@ fn derivatives_of_what_is_summed_up_know_when_a_force_jumps() {
                 slopes[k]
             );
         }
-        // What the force takes, 1 kg loses, but for 2 N from 0.1 s on. The force has four smooth pieces of at most 24 N · sin(20 t), of
-        // which the line through samples sums h²/12 of what the rate changes by too little, 2 · 480 N/s; a parameter moves that by at most
-        // 20 · 0.4 + 2 times itself.
+        // What the force takes, 1 kg loses, but for 2 N from 0.1 s on. The force has four smooth pieces of at most 24 N
+        // · sin(20 t), of which the line through samples sums h²/12 of what the rate changes by too little, 2 · 480
+        // N/s; a parameter moves that by at most 20 · 0.4 + 2 times itself.
         let impulse = [row[0], 0.0, 0.0, 0.0][direction] - slopes[1];
         let bound = 1e-6 / 12.0 * 4.0 * 960.0 * 10.0;
         assert!(

@@ -61,8 +61,8 @@ pub const BARE: Info = Info {
     every: 0.1,
 };
 
-/// What models on unit structs have in common: how many numbers there are of each kind, and where a run starts. q̇ is that of time 0, which
-/// counts only where it depends on time.
+/// What models on unit structs have in common: how many numbers there are of each kind, and where a run starts. q̇ is
+/// that of time 0, which counts only where it depends on time.
 macro_rules! bare {
     ($model:ident, state $state:expr, from $y0:expr) => {
         type With<U: Real> = $model;
@@ -85,8 +85,8 @@ macro_rules! bare {
     };
 }
 
-/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0, which matters only if it depends
-/// on time.
+/// A model without parameters and outputs, on a unit struct: names, initial state, derivative. q̇ is that of time 0,
+/// which matters only if it depends on time.
 macro_rules! model {
     ($(#[$doc:meta])* $model:ident, [$($q:literal: $q_kind:ident),*], [$($v:literal: $v_kind:ident),*], $kinks:expr, $duration:expr,
      $y0:expr, |$t:ident, $y:ident| $rate:expr) => {
@@ -328,7 +328,8 @@ impl<T: Real> Model<T> for Spin {
     }
 }
 
-/// x = −cos t. An event function changes its sign where x turns round, at t = π, 2π …; the memory is the largest x at the end of a step.
+/// x = −cos t. An event function changes its sign where x turns round, at t = π, 2π …; the memory is the largest x at
+/// the end of a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Ratchet;
 
@@ -356,8 +357,8 @@ impl<T: Real> Model<T> for Ratchet {
     }
 }
 
-/// x = t. From t = 0.5 on, the event function changes its sign wherever x leaves the place of the last update, so every step is cut down to a
-/// rounding of x.
+/// x = t. From t = 0.5 on, the event function changes its sign wherever x leaves the place of the last update, so every
+/// step is cut down to a rounding of x.
 #[derive(Clone, Copy, Debug)]
 pub struct Ledge;
 
@@ -469,8 +470,8 @@ model! {
 }
 
 model! {
-    /// A mass of 1 kg that runs into a belt at 2 m/s. From 1 m on the belt pulls it back with 100 N/m and 4 N s/m, and never pushes. The force jumps
-    /// where the belt goes taut.
+    /// A mass of 1 kg that runs into a belt at 2 m/s. From 1 m on the belt pulls it back with 100 N/m and 4 N s/m, and
+    /// never pushes. The force jumps where the belt goes taut.
     Tether, ["x": Position], ["x": Velocity], &[], 1.5, [0.0, 2.0],
     |_t, y| {
         let zero = T::from_f64(0.0);

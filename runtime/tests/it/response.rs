@@ -86,8 +86,8 @@ fn triangle(x: f64) -> f64 {
     1.0 - (2.0 * x - 1.0).abs()
 }
 
-/// The error due to sampling: the trapezium rule errs by (π h/T)²/12 of a mean, and the ends of the window by an interval, to the
-/// square.
+/// The error due to sampling: the trapezium rule errs by (π h/T)²/12 of a mean, and the ends of the window by an
+/// interval, to the square.
 fn bound(every: f64, length: f64) -> f64 {
     5.0 * (PI * every / length).powi(2)
 }
@@ -101,8 +101,8 @@ fn assert_near(found: f64, expected: f64, bound: f64) {
     );
 }
 
-/// HIC = c A^2.5 T for pulses of amplitude A \[g\] and length T, where the window is long enough. c comes from maximising the
-/// closed form of the mean over centred windows, in 16 digits; for the triangle it is (4/7) (5/7)^2.5.
+/// HIC = c A^2.5 T for pulses of amplitude A \[g\] and length T, where the window is long enough. c comes from
+/// maximising the closed form of the mean over centred windows, in 16 digits; for the triangle it is (4/7) (5/7)^2.5.
 #[test]
 fn hic_of_pulses_is_in_proportion() {
     let (amplitude, length, every) = (80.0, 12e-3, 2e-5);
@@ -299,7 +299,8 @@ fn size(samples: &[f64]) -> f64 {
     samples.iter().fold(0.0, |most, a| a.abs().max(most))
 }
 
-/// The largest value of a sample that is met or exceeded for as long as asked, and from there upwards in a straight line.
+/// The largest value of a sample that is met or exceeded for as long as asked, and from there upwards in a straight
+/// line.
 #[test]
 fn cumulative_clips_are_those_of_sorted_values() {
     let part = |a: f64, b: f64, level: f64, met: bool| match (a.min(b), a.max(b)) {
@@ -338,8 +339,8 @@ fn cumulative_clips_are_those_of_sorted_values() {
     }
 }
 
-/// Over all windows that begin or end on samples, or have both ends on one level, in any two intervals: the largest of the
-/// smallest values.
+/// Over all windows that begin or end on samples, or have both ends on one level, in any two intervals: the largest of
+/// the smallest values.
 #[test]
 fn contiguous_clips_are_those_of_all_windows() {
     for seed in 0..500 {
@@ -495,7 +496,8 @@ fn rectangles_meet_the_corners_of_their_limit() {
     assert!((ratio - 1.0).abs() < 1e-11 && (at - 35e-3).abs() < 1e-12);
 }
 
-/// A triangle of this length has the level h (1 - d/T) for d, so the ratio is a quotient that is monotonic between corners.
+/// A triangle of this length has the level h (1 - d/T) for d, so the ratio is a quotient that is monotonic between
+/// corners.
 #[test]
 fn a_triangle_exceeds_a_falling_limit_at_a_corner() {
     for (length, duration) in [(70e-3, 0.0), (100e-3, 60e-3)] {

@@ -601,7 +601,8 @@ fn rejected_steps_do_not_touch_memory() {
     }
 }
 
-/// An event function that jumps where a run stands would cut every step down to nothing, for ever: after a while one goes on.
+/// An event function that jumps where a run stands would cut every step down to nothing, for ever: after a while one
+/// goes on.
 #[test]
 fn a_event_function_that_jumps_where_a_run_stands_does_not_stop_it() {
     // of a long step an event is known less well than a time is

@@ -1,7 +1,7 @@
 //! The derivatives of responses: by dual numbers through the run, and by differences of runs for comparison.
 //!
-//! Dual numbers go through an explicit method in lanes. A stiff scene would take it too many steps; there the derivatives are differences of runs by the
-//! method that changes ([`sweep::alone`]).
+//! Dual numbers go through an explicit method in lanes. A stiff scene would take it too many steps; there the
+//! derivatives are differences of runs by the method that changes ([`sweep::alone`]).
 
 use super::table::AGREE;
 use crate::accuracy::comparison::PROMISED;
@@ -20,8 +20,9 @@ use std::time::Instant;
 
 /// Tolerance if the user gives none.
 pub(super) const TOLERANCE: f64 = 1e-8;
-/// Tolerance of the runs for difference quotients, and the share of its size by which a parameter is changed to either side. The error of a
-/// difference quotient has two parts: the square of the second, and the first divided by the second.
+/// Tolerance of the runs for difference quotients, and the share of its size by which a parameter is changed to either
+/// side. The error of a difference quotient has two parts: the square of the second, and the first divided by the
+/// second.
 const SHARP: f64 = 1e-12;
 const MOVED: f64 = 1e-4;
 /// Slopes that are smaller than this share of their response are measured by the response.
@@ -45,7 +46,8 @@ pub(super) fn by_size(slopes: &[f64], sizes: &[f64], responses: usize) -> Vec<f6
         .collect()
 }
 
-/// Responses, and slopes along these directions. `None` if that takes more than [`FEW`] steps, where no more are allowed.
+/// Responses, and slopes along these directions. `None` if that takes more than [`FEW`] steps, where no more are
+/// allowed.
 fn ask(
     engine: &Engine,
     job: &Job,
@@ -70,8 +72,8 @@ fn ask(
     Ok(Some(gradients))
 }
 
-/// Puts in place of a direction in which several events happen at the same time what its slopes are on both sides of the point, where they do not.
-/// Events of systems that share nothing have the same effect in either order.
+/// Puts in place of a direction in which several events happen at the same time what its slopes are on both sides of
+/// the point, where they do not. Events of systems that share nothing have the same effect in either order.
 fn untie(
     engine: &Engine,
     job: &Job,
@@ -171,15 +173,15 @@ pub(super) struct Problem<'a> {
 pub(super) struct Accurate {
     /// The derivatives, one parameter after the other, each by the [`size`] of its parameter.
     pub gradients: Gradients,
-    /// Their estimated error, relative to the largest slope of a response, or to 1 % of the response. NaN if the run for comparison failed;
-    /// `None` if an interruption left it out.
+    /// Their estimated error, relative to the largest slope of a response, or to 1 % of the response. NaN if the run
+    /// for comparison failed; `None` if an interruption left it out.
     pub error: Option<f64>,
     /// The tolerance of the run.
     pub tolerance: f64,
 }
 
-/// Errors fall like the tolerance, at worst like its root: two runs whose tolerances are as 10 to 1 then differ by this many times the
-/// error of the sharper one.
+/// Errors fall like the tolerance, at worst like its root: two runs whose tolerances are as 10 to 1 then differ by this
+/// many times the error of the sharper one.
 const SURELY: f64 = 2.16;
 /// No sharper run begins after this time \[s\], or after this many times the time of the first.
 const PATIENCE: [f64; 2] = [10.0, 5.0];
@@ -266,8 +268,8 @@ impl Problem<'_> {
         Ok(all)
     }
 
-    /// Slopes at a tolerance, compared with those at ten times the tolerance. If they are not as accurate as promised and the user gave no
-    /// tolerance, sharper runs follow.
+    /// Slopes at a tolerance, compared with those at ten times the tolerance. If they are not as accurate as promised
+    /// and the user gave no tolerance, sharper runs follow.
     pub fn accurately(&self, given: Option<f64>, progress: &Progress) -> Result<Accurate, Error> {
         let begin = Instant::now();
         let mut tolerance = given.unwrap_or(TOLERANCE);
@@ -309,8 +311,8 @@ impl Problem<'_> {
         })
     }
 
-    /// Derivatives by difference quotients of sharper runs, for as many parameters as time allows: central differences, or at a bound
-    /// one-sided differences of the same order.
+    /// Derivatives by difference quotients of sharper runs, for as many parameters as time allows: central differences,
+    /// or at a bound one-sided differences of the same order.
     pub fn differences(&self, progress: &Progress) -> Result<Vec<f64>, Error> {
         let mut job = self.job.clone();
         job.settings.pace = Pace::Adaptive(Tolerances::of(SHARP));
@@ -343,8 +345,8 @@ impl Problem<'_> {
     }
 }
 
-/// The difference of the slopes and responses of two runs, relative to the largest slope of each response, or to 1 % of the response if
-/// that is larger.
+/// The difference of the slopes and responses of two runs, relative to the largest slope of each response, or to 1 % of
+/// the response if that is larger.
 fn apart(fine: &Gradients, coarse: &Gradients) -> f64 {
     let responses = fine.values.len();
     let mut worst = 0.0;
@@ -386,7 +388,8 @@ fn each_alone(sizes: &[f64]) -> Vec<f64> {
     directions
 }
 
-/// Responses, and slopes in as many of the directions as time allows, `None` as [`ask`]; as many run side by side as a register holds.
+/// Responses, and slopes in as many of the directions as time allows, `None` as [`ask`]; as many run side by side as a
+/// register holds.
 fn slopes(
     engine: &Engine,
     job: &Job,
@@ -414,7 +417,8 @@ fn slopes(
     Ok(Some(all))
 }
 
-/// Difference quotients of the function `at` of a parameter's change, of second order in the step, within the bounds of the parameter.
+/// Difference quotients of the function `at` of a parameter's change, of second order in the step, within the bounds of
+/// the parameter.
 pub fn difference(
     at: impl Fn(f64) -> Result<Vec<f64>, Error>,
     value: f64,

@@ -27,7 +27,8 @@ pub(super) struct Table<'a> {
     pub slopes: &'a [f64],
     /// The same by differences, for the first parameters or for all.
     pub checked: Option<&'a [f64]>,
-    /// The estimated error of each response and its derivatives, as a share of the largest change or of the response, if it is known.
+    /// The estimated error of each response and its derivatives, as a share of the largest change or of the response,
+    /// if it is known.
     pub error: Option<f64>,
 }
 
@@ -43,7 +44,8 @@ impl Table<'_> {
             .copied()
     }
 
-    /// The slope of a response with respect to a parameter in the units in which both are shown, or the difference in its place.
+    /// The slope of a response with respect to a parameter in the units in which both are shown, or the difference in
+    /// its place.
     fn shown(&self, slope: f64, response: usize, parameter: usize) -> f64 {
         let [above, below] = [&self.responses[response].unit, &self.units[parameter]];
         // in SI all digits stay as they are
@@ -122,8 +124,9 @@ impl Table<'_> {
         text
     }
 
-    /// How far the derivatives of a response are from the differences, relative to the largest change of the response that any parameter
-    /// makes by either of the two, or to 1 % of the response: what is far less cannot be told from 0 by differences of runs.
+    /// How far the derivatives of a response are from the differences, relative to the largest change of the response
+    /// that any parameter makes by either of the two, or to 1 % of the response: what is far less cannot be told from 0
+    /// by differences of runs.
     fn disagreement(&self, response: usize) -> Option<f64> {
         self.checked?;
         let change = |i: usize, slope: f64| (slope * size(self.parameters[i], self.row[i])).abs();

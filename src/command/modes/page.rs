@@ -1,8 +1,8 @@
 //! The page of modes: the mechanism in each of its motions.
 //!
-//! A mode is drawn without its damping: the coordinates follow q(φ) = q₀ + a · Re(shape · e^(iφ)) along the motions of the velocities. Where an
-//! element has an orientation, the part of it is a rotation vector, by which the element is turned from q₀. A mode that does not oscillate
-//! is drawn as it decays or grows, and a free one to and fro.
+//! A mode is drawn without its damping: the coordinates follow q(φ) = q₀ + a · Re(shape · e^(iφ)) along the motions of
+//! the velocities. Where an element has an orientation, the part of it is a rotation vector, by which the element is
+//! turned from q₀. A mode that does not oscillate is drawn as it decays or grows, and a free one to and fro.
 
 use super::Shown;
 use crate::modes::Number;
@@ -22,7 +22,8 @@ use std::f64::consts::TAU;
 /// Poses of a loop; the last is the first again. A straight line from one to the next is off by 0.9 % of the amplitude.
 const POSES: usize = 25;
 
-/// The farthest point of a mode moves by this share of the size of what moves, unless a body turned by more than this angle \[rad\].
+/// The farthest point of a mode moves by this share of the size of what moves, unless a body turned by more than this
+/// angle \[rad\].
 const SHARE: f64 = 0.1;
 const WIDEST: f64 = 0.5;
 
@@ -243,7 +244,8 @@ fn turn(scene: &Scene, from: usize, to: usize) -> f64 {
     bodies.map(angle).fold(0.0, f64::max)
 }
 
-/// The displacements of a shape, turned so that the coordinate with the largest share of the energy is at its largest first.
+/// The displacements of a shape, turned so that the coordinate with the largest share of the energy is at its largest
+/// first.
 fn displacements(shown: &Shown<'_>, names: &[&str]) -> Vec<Number> {
     let along = &shown.mode.shape[..names.len()];
     if shown.mode.moves_nothing(names.len()) {
@@ -296,7 +298,8 @@ pub fn json(rest: &Rest<'_>, shown: &[Shown<'_>]) -> Result<Value, Mismatch> {
 }
 
 impl Shown<'_> {
-    /// The mode as it is drawn, with displacements \[m, rad\] of this shape, of which the farthest point has the largest \[m\].
+    /// The mode as it is drawn, with displacements \[m, rad\] of this shape, of which the farthest point has the
+    /// largest \[m\].
     fn drawn(&self, shape: &[Number], farthest: f64, info: &Info) -> Value {
         let course = ModeMotion::of(self);
         let lasts = match course {

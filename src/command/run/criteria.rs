@@ -87,8 +87,8 @@ impl Criteria {
         there.map(Requested::of_study)
     }
 
-    /// Channels whose samples are kept for more than one number, in the order of the criteria: the filtered signals of the
-    /// neck, for the mode of Nij, and those whose limit falls with the duration of the load.
+    /// Channels whose samples are kept for more than one number, in the order of the criteria: the filtered signals of
+    /// the neck, for the mode of Nij, and those whose limit falls with the duration of the load.
     pub fn kept(&self) -> Vec<Kept> {
         let of = |one: &Judged| {
             let Ok(response) = &one.response else {

@@ -41,8 +41,8 @@ pub fn input_file(text: &str) -> Result<InputFile, String> {
 /// Lets inputs of a model follow files from the time `start` to `end` \[s\].
 ///
 /// # Errors
-/// The model has no such input; a file cannot be read, has no such column or another quantity, does not cover the run, or
-/// has a value that is missing or out of the limits of the input.
+/// The model has no such input; a file cannot be read, has no such column or another quantity, does not cover the run,
+/// or has a value that is missing or out of the limits of the input.
 pub fn follow(model: &mut Model, files: &[InputFile], [start, end]: [f64; 2]) -> Result<(), Error> {
     for (place, file) in files.iter().enumerate() {
         let index = (model.parameters.iter())

@@ -1,5 +1,5 @@
-//! glTF 2.0, as text or as bytes (GLB): triangles of all meshes of the scene, where its nodes put them. In the file y is up, here z. Skins, morphs and compressed meshes
-//! are not read.
+//! glTF 2.0, as text or as bytes (GLB): triangles of all meshes of the scene, where its nodes put them. In the file y
+//! is up, here z. Skins, morphs and compressed meshes are not read.
 
 use super::Triangles;
 use crate::pose::Vec3;

@@ -1,4 +1,5 @@
-//! Meshes of files (STL, OBJ and glTF) and of simple shapes, as triangles in the frame of a body, and no more of them than a picture shows.
+//! Meshes of files (STL, OBJ and glTF) and of simple shapes, as triangles in the frame of a body, and no more of them
+//! than a picture shows.
 
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
 #[doc(hidden)]
@@ -56,7 +57,8 @@ pub struct Mesh {
     pub corners: [Vec3; 8],
 }
 
-/// The meshes of a model whose files are there, and a note for each that cannot be read, or is shown with fewer triangles than it has.
+/// The meshes of a model whose files are there, and a note for each that cannot be read, or is shown with fewer
+/// triangles than it has.
 pub fn meshes(model: &Model) -> (Vec<Mesh>, Vec<String>) {
     let written = || {
         model.shown.iter().filter_map(|shown| match shown {
@@ -119,7 +121,8 @@ pub fn missing(mesh: &model::Mesh) -> Option<String> {
     }
 }
 
-/// The triangles of a mesh, in the frame of its body, and a note where there are fewer than in the file. `count` meshes share what a scene may have.
+/// The triangles of a mesh, in the frame of its body, and a note where there are fewer than in the file. `count` meshes
+/// share what a scene may have.
 ///
 /// # Errors
 /// Why they cannot be had, and what to do.
@@ -184,8 +187,8 @@ pub fn of_bytes(path: &Path, bytes: &[u8]) -> Result<Triangles, String> {
     }
 }
 
-/// The path of a file. That of `package://NAME/…` is below a folder NAME that contains the file that names it, or is beside one that does, or is named in
-/// `ROS_PACKAGE_PATH`.
+/// The path of a file. That of `package://NAME/…` is below a folder NAME that contains the file that names it, or is
+/// beside one that does, or is named in `ROS_PACKAGE_PATH`.
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub fn found(mesh: &model::Mesh, file: &str) -> Result<PathBuf, String> {
@@ -270,8 +273,8 @@ impl Triangles {
     }
 }
 
-/// At most so many triangles with about the same surface: all corners in a cell of a grid become one in the middle of them, and triangles that have lost an edge are
-/// left out. The grid is the finest of those tried.
+/// At most so many triangles with about the same surface: all corners in a cell of a grid become one in the middle of
+/// them, and triangles that have lost an edge are left out. The grid is the finest of those tried.
 // Public for the tests in `tests/suite/units`, which are compiled apart from this crate.
 #[doc(hidden)]
 pub fn coarser(triangles: &Triangles, most: usize) -> Triangles {

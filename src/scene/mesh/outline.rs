@@ -1,4 +1,5 @@
-//! The outline of a mesh as it is seen from one side: its triangles are laid on a grid of squares, and the outline leads around the squares that they cover.
+//! The outline of a mesh as it is seen from one side: its triangles are laid on a grid of squares, and the outline
+//! leads around the squares that they cover.
 
 use std::collections::HashMap;
 
@@ -74,7 +75,8 @@ fn cover(covered: &mut [bool], counts: [i32; 2], corners: [Point; 3]) {
     }
 }
 
-/// Closed lines along the edges between squares that are covered and those that are not, with the first at the right hand.
+/// Closed lines along the edges between squares that are covered and those that are not, with the first at the right
+/// hand.
 fn around(covered: &[bool], counts: [i32; 2]) -> Vec<Vec<Point>> {
     let is = |x: i32, y: i32| {
         (0..counts[0]).contains(&x)
@@ -122,7 +124,8 @@ fn around(covered: &[bool], counts: [i32; 2]) -> Vec<Vec<Point>> {
     loops
 }
 
-/// A closed line without the corners that are close to a straight line between others (Douglas and Peucker), closed by its first point.
+/// A closed line without the corners that are close to a straight line between others (Douglas and Peucker), closed by
+/// its first point.
 fn straightened(line: &[Point]) -> Vec<Point> {
     let far = (0..line.len()).fold(0, |best, i| {
         let distance = |i: usize| libm::hypot(line[i][0] - line[0][0], line[i][1] - line[0][1]);

@@ -12,8 +12,8 @@ use std::collections::BTreeMap;
 pub enum Limit {
     /// One number.
     Constant(f64),
-    /// Corners, each a duration \[ms\] and a level: the limit of a load that falls with the time for which a level of the
-    /// load is exceeded in total.
+    /// Corners, each a duration \[ms\] and a level: the limit of a load that falls with the time for which a level of
+    /// the load is exceeded in total.
     Falling(Vec<[f64; 2]>),
 }
 

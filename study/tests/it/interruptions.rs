@@ -1,5 +1,5 @@
-//! A study that is killed again and again at random times and then finished: no row is lost, none is there twice, and the table has the
-//! same bytes as without interruption.
+//! A study that is killed again and again at random times and then finished: no row is lost, none is there twice, and
+//! the table has the same bytes as without interruption.
 //!
 //! The program is its own child process: if a folder is in its environment, it runs the study there, slowly.
 

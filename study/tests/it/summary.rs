@@ -74,7 +74,8 @@ fn groups_find_the_indices_of_closed_forms() {
         );
         for (estimates, exact) in estimates(sensitivity).iter().zip(exact) {
             for (estimate, exact) in estimates.iter().zip(exact) {
-                // 95 % are 1.96 standard errors; Sobol' points scatter less than the random points that the interval assumes
+                // 95 % are 1.96 standard errors; Sobol' points scatter less than the random points that the interval
+                // assumes
                 let error = (estimate.high - estimate.low) / (2.0 * 1.96);
                 assert!(
                     (estimate.value - exact).abs() < 4.0 * error,
@@ -187,8 +188,8 @@ fn polynomials_of_normal_parameters_are_hermites() {
     }
 }
 
-/// Checks that main and total indices have these values, up to the rounding of normal equations with a few terms: the norms of terms are
-/// their weights within a few tenths, so that conditions are small.
+/// Checks that main and total indices have these values, up to the rounding of normal equations with a few terms: the
+/// norms of terms are their weights within a few tenths, so that conditions are small.
 fn assert_exact(about: &About, exact: Exact, what: &str) {
     let sensitivity = about.sensitivity.as_ref().unwrap();
     let Estimator::Polynomial { explained, .. } = sensitivity.method else {
@@ -230,7 +231,8 @@ fn polynomials_of_values_have_the_indices_of_their_weights() {
 
 #[test]
 fn any_function_of_values_is_found() {
-    // 2 comes twice; three levels have the weights 1/2, 3/8, 1/8, and a jump separates them; b is uniform with the variance π²/3
+    // 2 comes twice; three levels have the weights 1/2, 3/8, 1/8, and a jump separates them; b is uniform with the
+    // variance π²/3
     let parameters = "{ a: { values: [2, 1, 2, 1e6], weights: [1, 4, 2, 1] }, b: { from: -pi, to: pi }, c: { values: [3, 3] } }";
     let formula: Formula = |x| {
         let f = if x[0] == 2.0 { 1.0 } else { 0.0 };
@@ -268,7 +270,8 @@ fn values_that_come_seldom_or_never_leave_the_other_indices() {
 
 #[test]
 fn a_polynomial_errs_by_no_more_than_it_leaves_unexplained() {
-    // With y = p + r and |r|² = ε² V, an index of p differs from that of y by at most 2 ε + ε² in either part of the fraction.
+    // With y = p + r and |r|² = ε² V, an index of p differs from that of y by at most 2 ε + ε² in either part of the
+    // fraction.
     for (formula, exact, least) in [
         (ishigami as Formula, exact_ishigami(), 0.99),
         (sobol_g, exact_g(), 0.8),

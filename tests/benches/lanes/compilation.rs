@@ -1,7 +1,7 @@
 //! The compile time of modules, and the length of their machine code.
 //!
-//! Each module becomes a library with only its derivative of the state, by `rustc -C opt-level=3` on one core for any processor of its
-//! kind: once over `f64`, once over doubles in registers of every width of the runtime.
+//! Each module becomes a library with only its derivative of the state, by `rustc -C opt-level=3` on one core for any
+//! processor of its kind: once over `f64`, once over doubles in registers of every width of the runtime.
 
 use super::machine_code;
 use bryant_generator::Config;

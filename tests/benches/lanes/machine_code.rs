@@ -3,8 +3,8 @@
 use object::read::archive::ArchiveFile;
 use object::{Object, ObjectSection, ObjectSymbol, SectionIndex, SymbolKind};
 
-/// Bytes of the machine code of all functions of a Rust library whose symbols contain `word`; `None` if the format is unknown or there is
-/// no such function.
+/// Bytes of the machine code of all functions of a Rust library whose symbols contain `word`; `None` if the format is
+/// unknown or there is no such function.
 pub fn size(library: &[u8], word: &str) -> Option<u64> {
     let archive = ArchiveFile::parse(library).ok()?;
     let mut total = None;

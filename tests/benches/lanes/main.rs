@@ -1,9 +1,10 @@
 //! The cost of evaluations and runs over one double and over wide registers, in three tables.
 //!
-//! 1. The time of one derivative of the state for each state, and its share of the processor's peak of fused multiply-adds: share =
-//!    operations · lanes / (time · peak). A fused multiply-add counts as two operations, and the peak is that of twelve independent chains of
-//!    them in registers of the same width. Sums and products that are not fused keep the share below 1. All models and the peaks take turns,
-//!    [`ROUNDS`] times, so that a disturbance of the processor slows all of them down; the table has medians.
+//! 1. The time of one derivative of the state for each state, and its share of the processor's peak of fused
+//!    multiply-adds: share = operations · lanes / (time · peak). A fused multiply-add counts as two operations, and the
+//!    peak is that of twelve independent chains of them in registers of the same width. Sums and products that are not
+//!    fused keep the share below 1. All models and the peaks take turns, [`ROUNDS`] times, so that a disturbance of the
+//!    processor slows all of them down; the table has medians.
 //! 2. The compile time of the module, and the length of its machine code.
 //! 3. The number of runs of child-seat in a second, as in a study.
 //!
@@ -93,7 +94,8 @@ fn measured(mut work: impl FnMut()) -> f64 {
     median((0..5).map(|_| measure(repetitions)).collect())
 }
 
-/// Time of one evaluation \[s\], at a state that avoids the special values of the start, which may be faster to evaluate.
+/// Time of one evaluation \[s\], at a state that avoids the special values of the start, which may be faster to
+/// evaluate.
 fn time<T: Real, M: Model<T>>() -> f64 {
     let model = M::new(M::Parameters::defaults());
     let mut y = model.initial_state();
@@ -121,7 +123,8 @@ impl<S: ModelFamily> OfAnyWidth for PerState<S> {
     }
 }
 
-/// Number of independent chains of fused multiply-adds: their latency of four cycles times two in a cycle, with some reserve.
+/// Number of independent chains of fused multiply-adds: their latency of four cycles times two in a cycle, with some
+/// reserve.
 const CHAINS: usize = 12;
 const LENGTH: usize = 1000;
 

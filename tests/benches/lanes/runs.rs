@@ -1,5 +1,5 @@
-//! Number of runs of child-seat in a second, as in `bryant sweep`: six parameters, 120 ms, to 0.1 %, each row twice for the estimate of its
-//! error, with results on disk.
+//! Number of runs of child-seat in a second, as in `bryant sweep`: six parameters, 120 ms, to 0.1 %, each row twice for
+//! the estimate of its error, with results on disk.
 
 use bryant::bundled;
 use bryant::sweep::{self, Lanes};

@@ -1,4 +1,5 @@
-//! `everywhere MODEL.yaml...` runs each model by the engine. It prints the number of steps and a digest of all times, states and outputs.
+//! `everywhere MODEL.yaml...` runs each model by the engine. It prints the number of steps and a digest of all times,
+//! states and outputs.
 
 use bryant_engine::Engine;
 use bryant_generator::Config;

@@ -1,6 +1,7 @@
 //! The forces of `twin-joints.yaml`, along freedoms.
 
-/// A spring and a damper along the rails, a damper about one axis of a list, a screw driven by time, a spring on a follower.
+/// A spring and a damper along the rails, a damper about one axis of a list, a screw driven by time, a spring on a
+/// follower.
 pub fn rig<T: Real>(input: &Input<T>) -> Output<T> {
     let num = T::from_f64;
     let (freedoms, p) = (&input.freedoms, input.parameters);

@@ -1,4 +1,5 @@
-//! Identities, each between two functions that are derived apart, or between a function and the derivative of another by dual numbers.
+//! Identities, each between two functions that are derived apart, or between a function and the derivative of another
+//! by dual numbers.
 //!
 //! Sums of some hundred terms agree within 1e-11 of the sizes of their terms.
 
@@ -249,8 +250,8 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// The momentum is A v, its linear part the mass times the velocity of the centre of mass, and its angular part that about the origin
-    /// less that of the centre of mass.
+    /// The momentum is A v, its linear part the mass times the velocity of the centre of mass, and its angular part
+    /// that about the origin less that of the centre of mass.
     fn momentum(&self, at: &At) {
         let momentum = self.of_state("centroidal_momentum", at);
         let mut rest = At {

@@ -97,7 +97,8 @@ fn robots_agree_with_pinocchio() {
                     );
                 }
             }
-            // the axes of an element are those of the root link while all joints are at 0; those of a point are the link's
+            // the axes of an element are those of the root link while all joints are at 0; those of a point are the
+            // link's
             let elements = model.systems.iter().flat_map(|system| &system.elements);
             let mut points = elements.flat_map(|element| &element.points);
             let is_point = points.any(|point| point.name == frame);

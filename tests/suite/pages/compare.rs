@@ -1,10 +1,12 @@
 //! Whether two texts say the same, number by number.
 //!
-//! Words must be equal. A number may differ by one unit of its last digit, because another processor may round differently. Counts of steps and
-//! evaluations may differ by 2 %. A number below 10⁻⁴ is an error or the rest of a balance, which consists of rounding and of errors of the
-//! method: it may differ by a factor of 2. Times of computing depend on the machine and are not compared: [`FORGOTTEN`].
+//! Words must be equal. A number may differ by one unit of its last digit, because another processor may round
+//! differently. Counts of steps and evaluations may differ by 2 %. A number below 10⁻⁴ is an error or the rest of a
+//! balance, which consists of rounding and of errors of the method: it may differ by a factor of 2. Times of computing
+//! depend on the machine and are not compared: [`FORGOTTEN`].
 
-/// Rows of words with what depends on the machine, written as `_`. A digit in front of a word, or a comma behind it, belongs to the word.
+/// Rows of words with what depends on the machine, written as `_`. A digit in front of a word, or a comma behind it,
+/// belongs to the word.
 const FORGOTTEN: [&str; 6] = [
     "simulated in _ _ _ × real time",
     "runs in _ _ _ a second",
@@ -106,8 +108,8 @@ pub fn same_line(shown: &str, is: &str) -> bool {
         })
 }
 
-/// How much two lines are about the same, from 0 to 1: the share of their words, without numbers, that they have in common. Lines of numbers
-/// alone are about their first number.
+/// How much two lines are about the same, from 0 to 1: the share of their words, without numbers, that they have in
+/// common. Lines of numbers alone are about their first number.
 pub fn alike(a: &str, b: &str) -> f64 {
     let words = |line: &str| -> Vec<String> {
         let all = tokens(line).into_iter();
@@ -130,8 +132,8 @@ pub fn alike(a: &str, b: &str) -> f64 {
     f64::from(common) / size as f64
 }
 
-/// A printed line as a page shows it: with the times that the page shows, which are those of some other machine, and cut off where the page
-/// cuts it off.
+/// A printed line as a page shows it: with the times that the page shows, which are those of some other machine, and
+/// cut off where the page cuts it off.
 pub fn as_shown(shown: &str, is: &str) -> String {
     if same_line(shown, is) {
         return shown.to_owned();

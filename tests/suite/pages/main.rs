@@ -1,7 +1,8 @@
-//! The pages (README, CONTRIBUTING, docs) say what is: their commands are run, and what they print and draw is compared with what stands there.
+//! The pages (README, CONTRIBUTING, docs) say what is: their commands are run, and what they print and draw is compared
+//! with what stands there.
 //!
-//! Each page is a test by its name: `cargo test --test pages`, or with a part of a name behind it. [`page`] says what a page may contain and
-//! what the marks in its HTML comments mean. Two environment variables change what is done:
+//! Each page is a test by its name: `cargo test --test pages`, or with a part of a name behind it. [`page`] says what a
+//! page may contain and what the marks in its HTML comments mean. Two environment variables change what is done:
 //!
 //! - `PAGES_UPDATE=1` writes what the commands print and draw into the pages.
 //! - `PAGES_ALL=1` also runs what is marked as slow, and all lines of tables of runs.

@@ -95,7 +95,8 @@ const LONG: usize = 8000;
 /// The section of a page that lists its headings.
 const CONTENTS: &str = "## Contents";
 
-/// A page with contents lists all of its headings there, and a long page has contents. With `PAGES_UPDATE` they are written.
+/// A page with contents lists all of its headings there, and a long page has contents. With `PAGES_UPDATE` they are
+/// written.
 fn contents() -> Found {
     let mut found = Vec::new();
     for (path, text) in texts() {
@@ -382,7 +383,8 @@ fn files() -> Found {
     found
 }
 
-/// Each key in the column `key` of a table of a law is one that the reference describes, which a test of the generator holds to be all.
+/// Each key in the column `key` of a table of a law is one that the reference describes, which a test of the generator
+/// holds to be all.
 fn keys() -> Found {
     let cells = |line: &str| -> Vec<String> {
         line.split('|').map(|cell| cell.trim().to_owned()).collect()

@@ -134,7 +134,8 @@ pub fn differs(shown: &[&str], printed: &Printed) -> Option<String> {
     ))
 }
 
-/// The lines of a block as they are now, with as much left out as before; nothing if the block cannot be recognised in what was printed.
+/// The lines of a block as they are now, with as much left out as before; nothing if the block cannot be recognised in
+/// what was printed.
 pub fn renewed(shown: &[&str], printed: &Printed) -> Option<Vec<String>> {
     let (chunks, open) = chunks(shown);
     let whole = chunks.len() == 1 && chunks[0].before.is_none() && open.is_none();

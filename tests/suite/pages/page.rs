@@ -1,9 +1,11 @@
 //! What a page contains: blocks of code, tables, pictures, and marks for the test.
 //!
-//! A block in `sh` is run line by line. A block in `text` is what a command printed: the last one of the `sh` block directly before it, or the
-//! one of a mark. A line `…` stands for lines that are left out. A block in `yaml` is a model, a study, or a part of a model.
+//! A block in `sh` is run line by line. A block in `text` is what a command printed: the last one of the `sh` block
+//! directly before it, or the one of a mark. A line `…` stands for lines that are left out. A block in `yaml` is a
+//! model, a study, or a part of a model.
 //!
-//! Files that stand beside a page, those in the folder of its name, and those in the folder of its name in `examples` are in the folder of its commands.
+//! Files that stand beside a page, those in the folder of its name, and those in the folder of its name in `examples`
+//! are in the folder of its commands.
 //!
 //! Marks are HTML comments of lines `KEY: VALUE`. They are about the next block, table or line of pictures:
 //!

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-/// What differs between two pictures. They should have equally many numbers and the same words, and each number should be within two pixels:
-/// another processor may round differently.
+/// What differs between two pictures. They should have equally many numbers and the same words, and each number should
+/// be within two pixels: another processor may round differently.
 pub fn differs(drawn: &str, shown: &str) -> Option<String> {
     // the colours and widths are not what a picture shows
     let without_style = |svg: &str| -> String {

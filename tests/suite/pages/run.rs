@@ -399,7 +399,8 @@ fn write_block(path: &Path, lines: &[&str], part: &Part) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Copies the files beside a page, those in the folder of its name, and the examples of its name, but no pages and no pictures: these are made by commands.
+/// Copies the files beside a page, those in the folder of its name, and the examples of its name, but no pages and no
+/// pictures: these are made by commands.
 fn beside(page: &Path, folder: &Path) {
     let here = root().join(page);
     let mut places = vec![here.with_extension("")];

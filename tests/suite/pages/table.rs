@@ -2,9 +2,10 @@
 //!
 //! A table in Markdown with a run in each line has these marks:
 //!
-//! - `rows`: the command of all lines, of which a random third is run. What stands in code in the first cell of a line is added as `--set`. `{1}` is the last word of that cell.
-//! - `columns`: for each further column the response that it shows, as behind `-r`, with the unit of the column in brackets; `-` is not
-//!   compared, and a mark `other` says why. Columns are separated by `;`.
+//! - `rows`: the command of all lines, of which a random third is run. What stands in code in the first cell of a line
+//!   is added as `--set`. `{1}` is the last word of that cell.
+//! - `columns`: for each further column the response that it shows, as behind `-r`, with the unit of the column in
+//!   brackets; `-` is not compared, and a mark `other` says why. Columns are separated by `;`.
 //! - `with`: `LABEL: OPTIONS` are further options of the line whose first cell is or begins with this label.
 
 use super::compare::Number;
@@ -75,7 +76,8 @@ fn command(base: &str, label: &str, mark: &Mark) -> String {
     command
 }
 
-/// Whether a table consists of numbers for the most part: two or more, and a third of the cells beside the first column.
+/// Whether a table consists of numbers for the most part: two or more, and a third of the cells beside the first
+/// column.
 pub fn has_numbers(lines: &[&str]) -> bool {
     let rows = lines.iter().skip(2).map(|line| cells(line));
     let all: Vec<String> = rows
@@ -113,7 +115,8 @@ fn like(cell: &str, value: f64) -> Option<String> {
     })
 }
 
-/// The lines of a table as they are now, of which one `of` so many is run. `read` runs a command and returns the values of responses in SI, by their order.
+/// The lines of a table as they are now, of which one `of` so many is run. `read` runs a command and returns the values
+/// of responses in SI, by their order.
 pub fn renewed(
     lines: &[&str],
     mark: &Mark,

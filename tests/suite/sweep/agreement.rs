@@ -1,4 +1,5 @@
-//! The responses of a study agree with those computed here, by their definitions, from the table of `bryant run` with the same parameters.
+//! The responses of a study agree with those computed here, by their definitions, from the table of `bryant run` with
+//! the same parameters.
 
 use super::directory;
 use super::folder::Table;

@@ -1,4 +1,5 @@
-//! Disks that are full and folders that cannot be written: exit code 1, what is stored stays, and the same command goes on from there.
+//! Disks that are full and folders that cannot be written: exit code 1, what is stored stays, and the same command goes
+//! on from there.
 #![cfg(unix)]
 
 use super::directory;
@@ -9,7 +10,8 @@ use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::Command;
 
-/// Runs the command with files limited to this many blocks of 512 bytes: like a full disk, except for the name of the error.
+/// Runs the command with files limited to this many blocks of 512 bytes: like a full disk, except for the name of the
+/// error.
 #[track_caller]
 fn limited(at: &Path, blocks: u32, arguments: &[&str], code: i32) -> String {
     let ready = bryant(at);

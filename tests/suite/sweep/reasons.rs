@@ -1,12 +1,13 @@
-//! Runs without a result, or with one that cannot be trusted, have the reason in every table, and it is that of `bryant run`.
+//! Runs without a result, or with one that cannot be trusted, have the reason in every table, and it is that of `bryant
+//! run`.
 
 use super::folder::Table;
 use crate::command_call::{bryant, call};
 use bryant_runtime::Width;
 use std::path::Path;
 
-/// A body on a bending joint. With J = 1 and an elastic moment of 1 N m/rad, a rotation faster than π rad/s about a fixed axis takes it
-/// through 180°, where flexion has no direction.
+/// A body on a bending joint. With J = 1 and an elastic moment of 1 N m/rad, a rotation faster than π rad/s about a
+/// fixed axis takes it through 180°, where flexion has no direction.
 const BENDS: &str = "\
 model: bends
 dimension: 3
@@ -143,8 +144,8 @@ fn fixed_steps_that_go_over_something_are_told() {
     let at = directory.path();
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/hard/scenes/bullet.yaml");
     std::fs::copy(scene, at.join("bullet.yaml")).unwrap();
-    // steps of some millimetres see the contact; steps of 0.1 m to 0.4 m do not: neither their ends nor their middles are within 20 mm of
-    // the target
+    // steps of some millimetres see the contact; steps of 0.1 m to 0.4 m do not: neither their ends nor their middles
+    // are within 20 mm of the target
     let (slow, fast) = ([2.0, 1.7, 2.5], [129.0, 230.0, 370.0, 417.9]);
     let row = |speed: &f64| format!("{{ speed: {speed}, stiffness: 1e4 }}");
     let rows: Vec<String> = slow.iter().chain(&fast).map(row).collect();
@@ -223,8 +224,8 @@ fn ellipsoids_that_sink_through_each_other_are_told_in_lanes() {
     }
 }
 
-/// A wheel that swings at ω = √(k/J) for ever, so that no method may take longer steps than the motion asks for. With J = 10⁻⁹ kg m² and k = 1000 N m/rad that
-/// is 10⁶ 1/s, and a million steps are over within the run.
+/// A wheel that swings at ω = √(k/J) for ever, so that no method may take longer steps than the motion asks for. With J
+/// = 10⁻⁹ kg m² and k = 1000 N m/rad that is 10⁶ 1/s, and a million steps are over within the run.
 const SWINGS_ON: &str = "\
 model: swing
 dimension: 2
@@ -345,7 +346,8 @@ fn curves_that_are_left_too_far_are_told_in_lanes() {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
     std::fs::write(at.join("sinks.yaml"), SINKS).unwrap();
-    // a heavy ball with ½ k x² goes far beyond twice the curve; a light one turns within it; beside the plate nothing acts
+    // a heavy ball with ½ k x² goes far beyond twice the curve; a light one turns within it; beside the plate nothing
+    // acts
     let rows = [
         (500.0, 100.0, true),
         (5.0, 100.0, false),
@@ -482,8 +484,9 @@ outputs: [{ name: angle, of: joint wheel/body, what: angle }]
 run: { duration: 1 s, every: 10 ms }
 ";
 
-/// Steps of ωh = ½ by rk4 keep 1 − y⁶/72 + y⁸/576 of the energy each, y = ωh: 4.1 % are lost in the 200 of a run. Angle and velocity lose the same. The
-/// balance has the work at the velocities that there are, so it lacks what the velocity loses: 2.05 %.
+/// Steps of ωh = ½ by rk4 keep 1 − y⁶/72 + y⁸/576 of the energy each, y = ωh: 4.1 % are lost in the 200 of a run. Angle
+/// and velocity lose the same. The balance has the work at the velocities that there are, so it lacks what the velocity
+/// loses: 2.05 %.
 #[test]
 fn the_limit_of_missing_energy_is_that_of_the_study() {
     let directory = tempfile::tempdir().unwrap();

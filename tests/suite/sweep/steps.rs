@@ -54,7 +54,8 @@ fn fixed_steps_agree_in_all_lanes_and_with_an_accurate_run() {
         );
         let told = table.numbers("error estimate");
         assert!(told.iter().all(|told| *told < 1e-2), "{told:?}");
-        // kinks are anywhere in the steps of a run and of its twin: in one row both may have the same error, but not in all
+        // kinks are anywhere in the steps of a run and of its twin: in one row both may have the same error, but not in
+        // all
         let most = told.iter().fold(0.0, |most: f64, told| most.max(*told));
         near(&table, &sharp, most);
         for width in Width::ALL.iter().filter(|width| width.is_available()) {

@@ -92,8 +92,8 @@ outputs: [{ name: x, of: ball/ball, what: position, component: x }]
 run: { duration: 0.1 s, every: 1 ms }
 ";
 
-/// The push of an edge is 3/2 E/width at most, of 4.2 kN at a depth of 60 mm where E = 84 J: more than these below 30 mm. A width of one's own may be as
-/// narrow as that; the default is the depth of the curve.
+/// The push of an edge is 3/2 E/width at most, of 4.2 kN at a depth of 60 mm where E = 84 J: more than these below 30
+/// mm. A width of one's own may be as narrow as that; the default is the depth of the curve.
 #[test]
 fn an_edge_that_fades_over_less_than_the_depth_says_so() {
     assert_eq!(kinds(FOAM, &job()), [""; 0]);
@@ -422,7 +422,8 @@ fn a_joint_through_its_singular_angle_says_so() {
         let found = in_lanes(&text, batch::LaneFormula::Dopri5, 5e-3, ENERGY_LIMIT);
         assert_eq!(found, (Status::Done, None), "{law} {rates}");
     }
-    // the same on both sides; fixed steps may come so near to the angle that rounding decides where the moment points to
+    // the same on both sides; fixed steps may come so near to the angle that rounding decides where the moment points
+    // to
     let same = with("0, 3, 0", "y: { damping: 0.1, friction: 0.1 }");
     assert_eq!(kinds(&same, &job()), [""; 0]);
     // a law that does not act
@@ -523,7 +524,8 @@ fn what_steps_pass_over_is_told() {
 
 #[test]
 fn momentum_that_is_lost_is_told() {
-    // ω h = 2 is close to the limit of stability, which the impulse of a step shows first; ω h = 0.5 loses almost nothing
+    // ω h = 2 is close to the limit of stability, which the impulse of a step shows first; ω h = 0.5 loses almost
+    // nothing
     let lost = kinds(PULL, &stepped(Formula::Rk4, 0.2));
     assert_eq!(
         lost.first().map(String::as_str),
@@ -539,8 +541,8 @@ fn momentum_that_is_lost_is_told() {
     assert_eq!(kinds(PULL, &off), [""; 0]);
 }
 
-/// Two balls that touch for half a millisecond, while a step of 10 ms covers 0.4 m: one of Merson's stages is within the touch, and throws
-/// the other ball away.
+/// Two balls that touch for half a millisecond, while a step of 10 ms covers 0.4 m: one of Merson's stages is within
+/// the touch, and throws the other ball away.
 const MEET: &str = "model: meet
 dimension: 3
 systems:

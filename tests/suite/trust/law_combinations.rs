@@ -1,5 +1,5 @@
-//! Random scenes in which several laws that begin, end, remember and switch act together: the result of `bryant run` agrees with a sharp run by another
-//! method to what is promised, or the run says that it does not.
+//! Random scenes in which several laws that begin, end, remember and switch act together: the result of `bryant run`
+//! agrees with a sharp run by another method to what is promised, or the run says that it does not.
 
 use super::sound;
 use bryant::accuracy::check::{self, Verdict};
@@ -110,7 +110,8 @@ fn driven(r: &mut Random) -> String {
     )
 }
 
-/// A body on the floor of a car that brakes until it stands, which slides into the dash and is held by a belt that yields.
+/// A body on the floor of a car that brakes until it stands, which slides into the dash and is held by a belt that
+/// yields.
 fn stopping(r: &mut Random) -> String {
     let (mass, speed, time) = (of(r, 1.0, 80.0), of(r, 2.0, 20.0), r.uniform(0.05, 0.2));
     format!(

@@ -163,7 +163,8 @@ fn a_bushing_through_its_singular_angle_says_so() {
             assert!(said, "{laws} {rates}: {found:?}");
         }
     }
-    // ½ J ω² < ½ k (π/2)²: it turns back before; or it turns about another axis, passes beside, or no law asks for an angle
+    // ½ J ω² < ½ k (π/2)²: it turns back before; or it turns about another axis, passes beside, or no law asks for an
+    // angle
     let about_y = "about: { x: { damping: 1e-3 }, y: { stiffness: 3 } }";
     for (rates, laws) in [
         ("0, 3, 0", about_y),

@@ -1,7 +1,8 @@
-//! Each law as its page in `docs/forces` states it, in plain vector algebra, compared with the equations at random states.
+//! Each law as its page in `docs/forces` states it, in plain vector algebra, compared with the equations at random
+//! states.
 //!
-//! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J fulfils F = m a and M = J ω̇: its
-//! accelerations show the force and moment on it.
+//! A body of mass m whose centre of gravity is its joint and whose moments of inertia are all J fulfils F = m a and M =
+//! J ω̇: its accelerations show the force and moment on it.
 
 mod statements;
 
@@ -477,7 +478,8 @@ fn pressure(elastic: f64, depth: f64, rate: f64) -> f64 {
     }
 }
 
-/// Penetration, its rate, the deepest point, its sliding velocity, and the normal, for an ellipsoid at `centre` over the plane through 0.
+/// Penetration, its rate, the deepest point, its sliding velocity, and the normal, for an ellipsoid at `centre` over
+/// the plane through 0.
 fn touch(body: &Moving, centre: Vector, axes: Vector) -> (f64, f64, Vector, Vector, Vector) {
     let n = unit(NORMAL);
     let in_axes: Vector = std::array::from_fn(|i| dot(column(&body.rotation, i), n));
@@ -719,8 +721,8 @@ fn belts() {
     assert!(taut > STATES / 4);
 }
 
-/// A belt from the frame over a ring on the body to another point of the frame: c s' = max(T₊ − R T₋, 0) − max(T₋ − R T₊, 0), R = e^(μ θ),
-/// and s is subtracted from L₀ of the segment before.
+/// A belt from the frame over a ring on the body to another point of the frame: c s' = max(T₊ − R T₋, 0) − max(T₋ − R
+/// T₊, 0), R = e^(μ θ), and s is subtracted from L₀ of the segment before.
 #[test]
 fn rings() {
     let scene = FreeBody::new(
@@ -771,8 +773,8 @@ fn rings() {
         if expected == 0.0 {
             assert_eq!(found, 0.0);
         }
-        // d acts on L₀ ε' with the L₀ of the whole belt, and grows with the stretch up to 1 mm; the rate of strain includes those of the
-        // length and of L₀
+        // d acts on L₀ ε' with the L₀ of the whole belt, and grows with the stretch up to 1 mm; the rate of strain
+        // includes those of the length and of L₀
         let tension = |(strain, rate, _): (f64, f64, Vector), own: f64, feeds: f64| {
             if strain <= 0.0 {
                 return 0.0;

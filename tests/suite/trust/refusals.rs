@@ -1,5 +1,6 @@
-//! Every number of every law at −1, 0, what is no number, and extremes, as a constant and as a parameter, in single runs, in rows of a study and in
-//! gradients: what is refused of one is refused of the others, in the same words, and what is not refused gives finite results or says that it cannot.
+//! Every number of every law at −1, 0, what is no number, and extremes, as a constant and as a parameter, in single
+//! runs, in rows of a study and in gradients: what is refused of one is refused of the others, in the same words, and
+//! what is not refused gives finite results or says that it cannot.
 
 use super::{read, run, sound};
 use crate::share::share;
@@ -339,7 +340,8 @@ run: { duration: 20 ms, every: 2 ms }
 ",
 ];
 
-/// Keys whose constant 0 says the same as no key, and whose parameter must be positive; a stiffness, where it has a curve of unloading below.
+/// Keys whose constant 0 says the same as no key, and whose parameter must be positive; a stiffness, where it has a
+/// curve of unloading below.
 const LEFT_OUT_BY_0: [&str; 3] = ["stiffness", "unloading_slope", "friction_displacement"];
 
 /// What every number is tried at.
@@ -420,8 +422,8 @@ fn study(engine: &Engine) -> RowsJob {
     }
 }
 
-/// A row of a study at this value, between two rows at the default, and a gradient there: refused if and only if a single run is, in its words; what they
-/// have of a row that is done.
+/// A row of a study at this value, between two rows at the default, and a gradient there: refused if and only if a
+/// single run is, in its words; what they have of a row that is done.
 fn in_rows(
     engine: &Engine,
     [default, number]: [f64; 2],

@@ -39,7 +39,8 @@ impl StepFormula {
     }
 }
 
-/// Times of runs from one state \[ns\], and their end; if the time loop has the formula, the run uses it with its checks.
+/// Times of runs from one state \[ns\], and their end; if the time loop has the formula, the run uses it with its
+/// checks.
 pub fn fall<M: Model<f64>>(
     mechanism: &M,
     start: M::State,

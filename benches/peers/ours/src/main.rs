@@ -9,10 +9,12 @@
 //! | `function FOLDER ROBOT FUNCTION COLUMN` | number of rows, then each: q, v, accelerations | nanoseconds per evaluation of each batch, a line; then the results, a line for each row |
 //! | `fall DURATION STEP COLUMN METHOD` | one state of dummy15 | nanoseconds of each run, a line; then the state at the end |
 //!
-//! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In lanes the derivative of
-//! the whole state is timed, including q̇. A method is `rk4`, `dop853` or `adams`, with steps of one length.
+//! A column is `f64`, or a width of registers: `1` (one state, with fused multiply-adds), `4`, `8`, or `widest`. In
+//! lanes the derivative of the whole state is timed, including q̇. A method is `rk4`, `dop853` or `adams`, with steps
+//! of one length.
 //!
-//! SI units; q and v are in the order of the model's own table of coordinates. The programs of the other engines use the same format.
+//! SI units; q and v are in the order of the model's own table of coordinates. The programs of the other engines use
+//! the same format.
 
 mod fall;
 mod functions;

@@ -1,6 +1,6 @@
-//! Scenes of real size. Machine code has the bits of the interpreter in every method, over doubles and over lanes of every width, at states where
-//! contacts, stops and belts act, with and without slopes. Rows of parameters have the same bits in lanes of every width. Outputs of which only
-//! some are wanted have the same bits.
+//! Scenes of real size. Machine code has the bits of the interpreter in every method, over doubles and over lanes of
+//! every width, at states where contacts, stops and belts act, with and without slopes. Rows of parameters have the
+//! same bits in lanes of every width. Outputs of which only some are wanted have the same bits.
 
 use super::common::Writes;
 use bryant_engine::Engine;
@@ -301,8 +301,8 @@ fn lanes_of_every_width() {
     }
 }
 
-/// Singles resolve times by 10⁻⁸ s at 0.1 s. Shorter steps on the way to a kink move nothing, and a run of such steps would never end. With steps by
-/// tolerance a run of this scene takes some thousands.
+/// Singles resolve times by 10⁻⁸ s at 0.1 s. Shorter steps on the way to a kink move nothing, and a run of such steps
+/// would never end. With steps by tolerance a run of this scene takes some thousands.
 #[test]
 fn singles_do_not_creep_along_kinks() {
     let engine = engine("occupant");

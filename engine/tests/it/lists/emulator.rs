@@ -1,5 +1,5 @@
-//! A processor in software with the instructions that code may contain. It checks every access to memory, which registers calls may change, and
-//! which a function must restore.
+//! A processor in software with the instructions that code may contain. It checks every access to memory, which
+//! registers calls may change, and which a function must restore.
 
 use iced_x86::{Decoder, DecoderOptions, Instruction, Mnemonic, OpKind, Register};
 

@@ -172,7 +172,8 @@ fn scalar<T: Real>(probe: Probe<T>) -> bool {
     true
 }
 
-/// How many inputs, constants, results and values that live for long are in a long list: more than instructions can address, where they hold an offset.
+/// How many inputs, constants, results and values that live for long are in a long list: more than instructions can
+/// address, where they hold an offset.
 const MANY: u32 = 5000;
 
 /// A list of more than 2²⁰ bytes of code, with a rare number and calls at the beginning.

@@ -1,8 +1,8 @@
 //! Mirror images of joints with coordinates of their own.
 //!
-//! A mirror M reverses one axis. The image of a sliding along d is one along M d; the image of a turn about n is one by the same angle about −M n, for
-//! n is axial; what does both gets the other hand, and the numbers that say its hand change sign. With these axes the image has the coordinates of its element: the same
-//! start, the same laws.
+//! A mirror M reverses one axis. The image of a sliding along d is one along M d; the image of a turn about n is one by
+//! the same angle about −M n, for n is axial; what does both gets the other hand, and the numbers that say its hand
+//! change sign. With these axes the image has the coordinates of its element: the same start, the same laws.
 
 use super::{Expander, Node, mirror::negated};
 use crate::description::joint::Coordinate;

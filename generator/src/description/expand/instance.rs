@@ -1,8 +1,8 @@
 //! A file that is read with another name for its system, so that a model has several of them.
 //!
-//! What the file says of that system is said of the one with the new name: elements, start, the forces, switches, surfaces
-//! and outputs that mention it, directly or by each other. Their names begin with that of the system (`sister-chin`, `sister
-//! head`). What does not mention the system is common to all instances, and counts once.
+//! What the file says of that system is said of the one with the new name: elements, start, the forces, switches,
+//! surfaces and outputs that mention it, directly or by each other. Their names begin with that of the system
+//! (`sister-chin`, `sister head`). What does not mention the system is common to all instances, and counts once.
 
 use super::{Known, Node};
 use crate::description::language::Language;
@@ -35,12 +35,13 @@ pub struct Renaming {
     language: &'static Language,
     from: String,
     to: String,
-    /// The names that get a prefix, behind their kind: `contact chin`, `switch fire`, `surface head`, `output head force`.
+    /// The names that get a prefix, behind their kind: `contact chin`, `switch fire`, `surface head`, `output head
+    /// force`.
     names: HashSet<String>,
 }
 
-/// Renames the system of a file whose short forms are written out; `None`, and reported at `at`, where the file does not
-/// describe exactly one.
+/// Renames the system of a file whose short forms are written out; `None`, and reported at `at`, where the file does
+/// not describe exactly one.
 ///
 /// `system`: its new name; without one it stays. `again`: the file was read before, so that what is common is left out.
 pub fn rename(

@@ -1,9 +1,9 @@
 //! Mirror images: of elements and their start, surfaces, forces and outputs that say `mirror: true`.
 //!
-//! A mirror reverses one axis a. Of a body and its image, the local frames are images of each other too. So a polar vector
-//! (a place, a direction, a force) changes the sign of its component along a; an axial one (an angular velocity, a moment)
-//! those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two other angles. The [axes of
-//! joints](super::axes) are of both kinds.
+//! A mirror reverses one axis a. Of a body and its image, the local frames are images of each other too. So a polar
+//! vector (a place, a direction, a force) changes the sign of its component along a; an axial one (an angular velocity,
+//! a moment) those of the two others; and an orientation Rx(φ₁) Ry(φ₂) Rz(φ₃) between such frames the signs of the two
+//! other angles. The [axes of joints](super::axes) are of both kinds.
 
 use super::{Expander, Node};
 use crate::description::tree::{Entry, NodeKind};
@@ -527,7 +527,8 @@ impl Expander<'_> {
         }
     }
 
-    /// The tensor of inertia \[xx, yy, zz, xy, xz, yz\], whose products with the reversed axis change sign; moments are what they are.
+    /// The tensor of inertia \[xx, yy, zz, xy, xz, yz\], whose products with the reversed axis change sign; moments are
+    /// what they are.
     fn tensor(&self, inertia: &Node) -> Node {
         let items = inertia.items();
         if items.len() != 6 {
@@ -684,7 +685,8 @@ impl Expander<'_> {
     }
 }
 
-/// A number with its sign changed: `0.1 m` → `-0.1 m`, `-a` → `a`, `a + b` → `-(a + b)`, `{ param: a }` → `-a`; zero stays.
+/// A number with its sign changed: `0.1 m` → `-0.1 m`, `-a` → `a`, `a + b` → `-(a + b)`, `{ param: a }` → `-a`; zero
+/// stays.
 pub(super) fn negated(number: &Node) -> Node {
     if is_zero(number) {
         return number.clone();

@@ -4,8 +4,8 @@
 //! tree ─instance→ under another name ─expand→ lists → mirror images → surfaces by name ─read→ Included
 //! ```
 //!
-//! What is written out stands in the tree as if the user had written it, with the places of what it comes from. So nothing
-//! behind this pass knows of short forms, and the long form gives the same generated source.
+//! What is written out stands in the tree as if the user had written it, with the places of what it comes from. So
+//! nothing behind this pass knows of short forms, and the long form gives the same generated source.
 
 mod axes;
 pub mod instance;

@@ -28,12 +28,12 @@ impl<'g> AccelerationDerivatives<'g> {
     }
 }
 
-/// v̇ = S⁻¹ (r_s + r_f + r) under the generalised forces r \[N m or N, in the order of v\] of all laws but fields, and its
-/// derivatives with r held constant, as Pinocchio's `computeABADerivatives` holds τ.
+/// v̇ = S⁻¹ (r_s + r_f + r) under the generalised forces r \[N m or N, in the order of v\] of all laws but fields, and
+/// its derivatives with r held constant, as Pinocchio's `computeABADerivatives` holds τ.
 ///
-/// `by_position[i][j]` is the derivative of v̇_i along the motion of `v[j]` (see [this folder](super)); `inverse` is S⁻¹.
-/// With r zero, these are the derivatives of the mechanism that only fields move. Each system takes the way with the
-/// fewest operations for all results together.
+/// `by_position[i][j]` is the derivative of v̇_i along the motion of `v[j]` (see [this folder](super)); `inverse` is
+/// S⁻¹. With r zero, these are the derivatives of the mechanism that only fields move. Each system takes the way with
+/// the fewest operations for all results together.
 ///
 /// v̇ follows from S = LᵀDL and from τ at v̇ = 0, of which ½ ∂τ/∂v · v is the part that is quadratic in v. The columns
 /// of −∂τ/∂q and −∂τ/∂v, taken at this v̇, are solved with the same factors or multiplied by S⁻¹, whichever is less.

@@ -4,8 +4,8 @@ use super::loads::Loads;
 use super::{DerivativeInputs, Found, NotDifferentiable, Way, cost, zeros};
 use crate::expression::Expr;
 
-/// τ \[N m or N\], its derivatives, and S, at the state of the scene and the given v̇ (rad/s² or m/s², in the order of v;
-/// for a free base the components of ẍ and ω̇ in absolute axes).
+/// τ \[N m or N\], its derivatives, and S, at the state of the scene and the given v̇ (rad/s² or m/s², in the order of
+/// v; for a free base the components of ẍ and ω̇ in absolute axes).
 ///
 /// All matrices are of the size of v, by rows. `by_position[i][j]` is the derivative of τ_i along the motion of `v[j]`
 /// (see [this folder](super)), `by_velocity[i][j]` is ∂τ_i/∂v_j with v̇ constant, `matrix` is S. Entries that vanish in
@@ -13,8 +13,8 @@ use crate::expression::Expr;
 /// [in the frames of its links](crate::dynamics::link::derivatives), or by differentiation of S and r_s.
 ///
 /// # Errors
-/// Only for systems that link frames cannot describe: if S or r_s cannot be differentiated in symbols. No model is known
-/// for which this is so.
+/// Only for systems that link frames cannot describe: if S or r_s cannot be differentiated in symbols. No model is
+/// known for which this is so.
 pub fn inverse_dynamics_derivatives<'g>(
     scene: &DerivativeInputs<'g, '_>,
     accelerations: &[Expr<'g>],

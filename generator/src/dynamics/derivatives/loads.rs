@@ -86,8 +86,8 @@ impl<'g> Loads<'g> {
 }
 
 impl<'g> DerivativeInputs<'g, '_> {
-    /// The derivatives of values along the motion of velocity `j`, and with respect to it. The derivatives of some nodes
-    /// along both are known.
+    /// The derivatives of values along the motion of velocity `j`, and with respect to it. The derivatives of some
+    /// nodes along both are known.
     pub(super) fn along(
         &self,
         j: usize,

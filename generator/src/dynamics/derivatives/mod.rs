@@ -6,8 +6,8 @@
 //!
 //! Derivatives with respect to positions are along the tangent: column j is the derivative along the motion that a unit
 //! of `v[j]` makes, q̇ being its coordinate rates. So all matrices have as many rows and columns as v. For a quaternion
-//! the columns are turns about the absolute axes x, y, z, as the velocities ω of bryant are components in absolute axes:
-//! q ⊕ d = exp(d/2) ∘ q. For every other coordinate the column is ∂/∂q.
+//! the columns are turns about the absolute axes x, y, z, as the velocities ω of bryant are components in absolute
+//! axes: q ⊕ d = exp(d/2) ∘ q. For every other coordinate the column is ∂/∂q.
 //!
 //! | file | |
 //! |---|---|

@@ -51,8 +51,8 @@ fn accelerated<'g>(
     )
 }
 
-/// The columns (s + e × r, e) of the velocities on the path from the frame to the reference joint. Where the path passes
-/// a ball joint, what is inboard of it moves its place and does not turn the frame.
+/// The columns (s + e × r, e) of the velocities on the path from the frame to the reference joint. Where the path
+/// passes a ball joint, what is inboard of it moves its place and does not turn the frame.
 pub fn jacobian<'g>(known: &Known<'g, '_>, frame: &Frame) -> Vec<Expr<'g>> {
     let ModelInMotion { graph, layout, .. } = *known.scene;
     let none = Vec3::zero(graph);

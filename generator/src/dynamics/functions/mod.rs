@@ -1,5 +1,5 @@
-//! The functions of a mechanism that are asked for by name: inverse dynamics, poses, Jacobians, the centroidal momentum.
-//! A model that is not asked for any has no trace of them.
+//! The functions of a mechanism that are asked for by name: inverse dynamics, poses, Jacobians, the centroidal
+//! momentum. A model that is not asked for any has no trace of them.
 //!
 //! | file | |
 //! |---|---|
@@ -12,12 +12,12 @@
 //! | `contacts` | where surfaces touch |
 //! | `derivatives` | derivatives of inverse dynamics and of accelerations, linearisation |
 //!
-//! With v̇ = a, a mechanism needs the forces S a − r_s. Of r_k, `gravity_forces` r_g are those of all fields, and of the
-//! given acceleration of what carries a system. So the joints and laws have to provide τ = S a − r_s − r_g, and in the
-//! motion of the scene τ = r_k − r_g.
+//! With v̇ = a, a mechanism needs the forces S a − r_s. Of r_k, `gravity_forces` r_g are those of all fields, and of
+//! the given acceleration of what carries a system. So the joints and laws have to provide τ = S a − r_s − r_g, and in
+//! the motion of the scene τ = r_k − r_g.
 //!
-//! Vectors are in absolute axes. Of a motion or a wrench the linear part comes first; the velocity of a frame is that of
-//! its origin. Matrices are by rows.
+//! Vectors are in absolute axes. Of a motion or a wrench the linear part comes first; the velocity of a frame is that
+//! of its origin. Matrices are by rows.
 
 mod contacts;
 mod derivatives;

@@ -1,8 +1,8 @@
 //! How inverse dynamics depends on the inertia of the elements, on which it depends linearly: τ = Y p.
 //!
-//! p has for each element the mass m, the first moment h = m c, and the inertia J about the origin, both in its axes, in
-//! the order m, h_x, h_y, h_z, J_xx, J_xy, J_yy, J_xz, J_yz, J_zz, which is Pinocchio's. With the acceleration A of the
-//! origin less the fields, they need the wrenches about it
+//! p has for each element the mass m, the first moment h = m c, and the inertia J about the origin, both in its axes,
+//! in the order m, h_x, h_y, h_z, J_xx, J_xy, J_yy, J_xz, J_yz, J_zz, which is Pinocchio's. With the acceleration A of
+//! the origin less the fields, they need the wrenches about it
 //!
 //! | | force | moment |
 //! |---|---|---|

@@ -1,9 +1,9 @@
 //! The whole of all systems: centre of mass, centroidal momentum, energies.
 //!
 //! The column (s, e) of a velocity of element k gives its bodies outboard the momentum f = M s + e × h_r and, about the
-//! origin of k, n = h × s + J e + Σ h_c × (e × d_c). M and h are the mass and the first moment of everything outboard. h_r
-//! and J are those of what turns with k; what is carried by a ball joint at d_c, with the first moment h_c about it, does
-//! not turn and counts there as a point mass. \[Orin, Goswami, Lee 2013\]
+//! origin of k, n = h × s + J e + Σ h_c × (e × d_c). M and h are the mass and the first moment of everything outboard.
+//! h_r and J are those of what turns with k; what is carried by a ball joint at d_c, with the first moment h_c about
+//! it, does not turn and counts there as a point mass. \[Orin, Goswami, Lee 2013\]
 
 use super::Known;
 use super::frame::{both, by_rows};
@@ -34,8 +34,8 @@ pub fn center_of_mass<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
     center_of_all(known.scene).0.into()
 }
 
-/// p = Σ m v + ω × h, and of l = p_k × p + h × v + J ω about the origin what is left about the centre of mass. v and J are
-/// those of the origins p_k of bodies.
+/// p = Σ m v + ω × h, and of l = p_k × p + h × v + J ω about the origin what is left about the centre of mass. v and J
+/// are those of the origins p_k of bodies.
 pub fn centroidal_momentum<'g>(known: &Known<'g, '_>) -> Vec<Expr<'g>> {
     let scene = known.scene;
     let (graph, all) = (scene.graph, center_of_all(scene));

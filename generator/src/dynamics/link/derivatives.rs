@@ -1,12 +1,12 @@
 //! The derivatives of the inverse dynamics in the frames of links: of the generalised forces τ(q, v, v̇) that a motion
-//! needs, with respect to the positions and the velocities of the joints.   \[Singh, Russell, Wensing 2022, in classical
+//! needs, with respect to the positions and the velocities of the joints. \[Singh, Russell, Wensing 2022, in classical
 //! accelerations\]
 //!
 //! A joint k at p_k has the column (t z, s z), and z is fixed in its link and in the carrier. The points p outboard of
-//! it, with π = p − p_k and the velocity and acceleration π', π'' that they have relative to the axes of link k, move by
-//! δp = t z × π + s z for a unit of its coordinate. Let ψ = ω × z and χ = Γ z, the first and second rates of z. Then the
-//! acceleration of p changes by d²(δp)/dt² with the coordinate and by 2 d(δp)/dt with its rate. All sums over outboard
-//! mass follow from
+//! it, with π = p − p_k and the velocity and acceleration π', π'' that they have relative to the axes of link k, move
+//! by δp = t z × π + s z for a unit of its coordinate. Let ψ = ω × z and χ = Γ z, the first and second rates of z. Then
+//! the acceleration of p changes by d²(δp)/dt² with the coordinate and by 2 d(δp)/dt with its rate. All sums over
+//! outboard mass follow from
 //!
 //! | of link k, about p_k | |
 //! |---|---|
@@ -15,8 +15,8 @@
 //! | f, n | the wrench that the motion relative to the link needs |
 //!
 //! No velocity of p_k occurs, because the dynamics are the same in all frames that move uniformly. The body δ has the
-//! change of the composite body: mass 0, δh and δΣ. For a vector w, K(w) = Σ m π × (w × δp) = −t z × Σw + s h × (w × z).
-//! A joint passes three wrenches to the root. Their powers per velocity of a carrier i are entries of a matrix:
+//! change of the composite body: mass 0, δh and δΣ. For a vector w, K(w) = Σ m π × (w × δp) = −t z × Σw + s h × (w ×
+//! z). A joint passes three wrenches to the root. Their powers per velocity of a carrier i are entries of a matrix:
 //!
 //! | wrench | entry |
 //! |---|---|
@@ -25,8 +25,8 @@
 //! | the wrench that δ needs in the motion of k, plus t z × (f, n) + s (0, z × f) + t (ψ × P, (tr B − B) ψ) | ∂τ_i/∂q_k |
 //!
 //! The first of them, (e, c) when it has come to the carrier i, and g = Σ 2 m (ṗ − ṗ_i) × δp give the entries of row k.
-//! On the way from a link to its carrier, by r, g increases by (2ω × r) × e, with ω of the carrier. a is the acceleration
-//! of p_i minus the field; z, t, s, ω, ψ and χ are those of i.
+//! On the way from a link to its carrier, by r, g increases by (2ω × r) × e, with ω of the carrier. a is the
+//! acceleration of p_i minus the field; z, t, s, ω, ψ and χ are those of i.
 //!
 //! | | |
 //! |---|---|
@@ -153,8 +153,9 @@ impl<'g> FreeBase<'g> {
         (self.rotation..self.rotation + 3).contains(&column)
     }
 
-    /// Adds the change of v̇ with a turn of the base to its columns of ∂v̇/∂q, from ∂v̇/∂v and S⁻¹: a turn of the base with the velocities and the
-    /// forces r on the base turned as well turns the accelerations minus the field, and those of the joints stay.
+    /// Adds the change of v̇ with a turn of the base to its columns of ∂v̇/∂q, from ∂v̇/∂v and S⁻¹: a turn of the base
+    /// with the velocities and the forces r on the base turned as well turns the accelerations minus the field, and
+    /// those of the joints stay.
     pub fn turn(
         &self,
         by_position: &mut Square<'g>,
@@ -246,8 +247,8 @@ impl<'g> InLinks<'g> {
         })
     }
 
-    /// −(bias forces): what the field that all bodies feel does, by row; the inertia against a given acceleration of the
-    /// reference joint included.
+    /// −(bias forces): what the field that all bodies feel does, by row; the inertia against a given acceleration of
+    /// the reference joint included.
     pub fn of_field(&self) -> Vec<Expr<'g>> {
         let graph = self.tree.graph;
         let ground = &self.tree.ground;

@@ -57,8 +57,8 @@ pub fn applied_forces<'g>(
     }
 }
 
-/// Sets the rows of the forces that the system needs for these v̇, beyond those in `applied`, of which only wrenches and
-/// fields count.
+/// Sets the rows of the forces that the system needs for these v̇, beyond those in `applied`, of which only wrenches
+/// and fields count.
 pub fn inverse_dynamics<'g>(
     spatial: &Spatial<'g, '_>,
     applied: &AppliedForces<'g>,

@@ -336,7 +336,8 @@ impl Lists {
     }
 }
 
-/// Factors that more than one term has, with these terms, the most frequent factor first; none where no two terms are products.
+/// Factors that more than one term has, with these terms, the most frequent factor first; none where no two terms are
+/// products.
 fn common_factors(terms: &[Option<Term>]) -> Vec<(Element, Vec<usize>)> {
     let products = terms.iter().flatten();
     if products.filter(|term| term.factors.get().len() > 1).count() < 2 {

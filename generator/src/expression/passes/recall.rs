@@ -5,7 +5,8 @@ use crate::expression::graph::{Expr, Graph};
 use crate::expression::node::{Function, Node, NodeId};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// Expressions of one graph with each called function replaced by `of` of it. What several expressions have in common is looked at once.
+/// Expressions of one graph with each called function replaced by `of` of it. What several expressions have in common
+/// is looked at once.
 pub struct Recall<'g, F> {
     graph: &'g Graph,
     of: F,

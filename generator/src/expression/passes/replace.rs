@@ -32,7 +32,8 @@ pub fn replace(
     copy.finish(roots)
 }
 
-/// The graph with each of these inputs turned into a value of `other`, and with the nodes that compute it. The opposite of [`replace`].
+/// The graph with each of these inputs turned into a value of `other`, and with the nodes that compute it. The opposite
+/// of [`replace`].
 pub fn restore(rewritten: Rewritten, other: &Graph, by: &FxHashMap<Symbol, NodeId>) -> Rewritten {
     let Rewritten { graph, roots } = &rewritten;
     let live = Live::new(graph, roots);

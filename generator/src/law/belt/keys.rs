@@ -107,8 +107,8 @@ declare! {
         /// tension until then; the curve must rise strictly from `[0, 0]`
         spool: OrDefault<NotNegative<Force>> {
             /// webbing that tightens on the locked reel: the tension in excess of the spool tension against the webbing
-            /// given, a curve from `[0, 0]` on that never falls. The reel takes the webbing back when the tension falls.
-            /// Both happen under a resistance of 50 N·s/m
+            /// given, a curve from `[0, 0]` on that never falls. The reel takes the webbing back when the tension
+            /// falls. Both happen under a resistance of 50 N·s/m
             film_spool: Option<FunctionOf<Length, Force>>,
         } = "0",
     }

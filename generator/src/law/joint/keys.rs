@@ -51,7 +51,8 @@ record! {
 }
 
 words! {
-    /// In which order the element turns about its axes: the first is an axis of the carrier, the third one of the element.
+    /// In which order the element turns about its axes: the first is an axis of the carrier, the third one of the
+    /// element.
     Order {
         /// x, then y, then z: Bryant angles.
         Xyz = "xyz",
@@ -289,7 +290,8 @@ impl Declared for Lock {
 }
 
 declare! {
-    /// What drives a coordinate θ to a given one c: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), limited to ± `limit`.
+    /// What drives a coordinate θ to a given one c: N = stiffness (c(t) − θ) + damping (ċ(t) − θ̇), limited to ±
+    /// `limit`.
     Drive as "a drive" {
         /// the coordinate to drive to: a number, or a curve of time (s → rad), whose slope is c'
         to: RequiredOverTime<Coordinate>,

@@ -12,7 +12,8 @@
 //! Before the switch that the force waits for, and after the switch that ends it, nothing acts; but the states continue
 //! to change.
 //!
-//! Vectors are in absolute axes; n_i are the directions of [joints](crate::law::joint::force). Power: F·v, M·ω, −T L̇, Q·θ̇, Q q̇.
+//! Vectors are in absolute axes; n_i are the directions of [joints](crate::law::joint::force). Power: F·v, M·ω, −T L̇,
+//! Q·θ̇, Q q̇.
 
 use super::outputs::{LineMeasures, UserMeasures};
 use crate::expression::vector::Vec3;

@@ -181,7 +181,7 @@ pub struct Names<'n> {
     pub key: &'static str,
     /// Name of its term.
     pub name: &'static str,
-    /// The term without which it has no effect, as [`Term::needs`].
+    /// Why it has no effect without another term, as in [`Term`].
     pub needs: &'static str,
 }
 
@@ -459,7 +459,8 @@ fn fields<D: Declared>(record: &mut Option<D>) -> Vec<Field<'_>> {
 }
 
 /// Declares a record: a struct of what a model keeps, and its [`Declaration`]. Keys that are `only written` are not
-/// kept (`Lock as "a lock" only written { … } and kept { … }`); those in braces behind a kind are read together with it.
+/// kept (`Lock as "a lock" only written { … } and kept { … }`); those in braces behind a kind are read together with
+/// it.
 ///
 /// ```text
 /// /// A lock.

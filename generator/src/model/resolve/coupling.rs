@@ -2,8 +2,9 @@
 //!
 //! q = ratio · q of the leader + offset,   q̇ = ratio · q̇ of the leader
 //!
-//! A follower has no coordinate. With its own column H, it adds ratio · H to the motion of its element per velocity of the leader. If the leader
-//! follows another one, the follower follows the first: q = a (b q' + c) + d = a b q' + (a c + d).
+//! A follower has no coordinate. With its own column H, it adds ratio · H to the motion of its element per velocity of
+//! the leader. If the leader follows another one, the follower follows the first: q = a (b q' + c) + d = a b q' + (a
+//! c + d).
 
 use super::Resolver;
 use super::joint::{freedom_named, spellings};

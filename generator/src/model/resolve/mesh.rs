@@ -1,4 +1,5 @@
-//! Meshes: which body shows which file or shape, how large, and where on it. Files are not read here: what is shown has no influence.
+//! Meshes: which body shows which file or shape, how large, and where on it. Files are not read here: what is shown has
+//! no influence.
 
 use super::Resolver;
 use crate::description::load::Loaded;

@@ -171,8 +171,8 @@ impl Resolver<'_> {
         }
     }
 
-    /// The problem that a number of a force breaks its rule, in the words of [`judge`](Self::judge). It is reported also
-    /// of a number that has no effect.
+    /// The problem that a number of a force breaks its rule, in the words of [`judge`](Self::judge). It is reported
+    /// also of a number that has no effect.
     pub fn breaks(&self, rule: Rule, value: f64, at: At<'_>) -> Diagnostic {
         let mut path = String::new();
         for step in at.trail() {

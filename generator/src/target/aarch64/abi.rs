@@ -57,7 +57,8 @@ impl Bases {
         self.register(CONSTANTS)
     }
 
-    /// Pairs of general registers and of vector registers that must be saved, in the order of their places on the stack.
+    /// Pairs of general registers and of vector registers that must be saved, in the order of their places on the
+    /// stack.
     fn saved(&self, written: u32) -> (Vec<[General; 2]>, Vec<[Vector; 2]>) {
         let mut general = Vec::new();
         if self.calls {

@@ -1,7 +1,7 @@
 //! The encoding of the instructions that this target needs.
 //!
-//! Every instruction is a word. Names and layouts are those of the Arm Architecture Reference Manual for A-profile (DDI 0487), chapters C6 and C7. Methods
-//! that work on numbers take a [`Form`]: a scalar, or all lanes of a register.
+//! Every instruction is a word. Names and layouts are those of the Arm Architecture Reference Manual for A-profile
+//! (DDI 0487), chapters C6 and C7. Methods that work on numbers take a [`Form`]: a scalar, or all lanes of a register.
 
 use crate::target::machine::operation::{Binary, Bitwise, CodePosition, Jump, Signs, Vector};
 use crate::target::machine::shape::Precision;

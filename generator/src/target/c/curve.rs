@@ -1,6 +1,7 @@
 //! Curves as constant arrays of points, slopes, coefficients and integrals.
 //!
-//! Slopes, coefficients and integrals are computed as the runtime computes them (`bryant_runtime::curve`), so that values have the same bits.
+//! Slopes, coefficients and integrals are computed as the runtime computes them (`bryant_runtime::curve`), so that
+//! values have the same bits.
 
 use super::number;
 use crate::model::Extrapolate;

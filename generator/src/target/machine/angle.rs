@@ -31,7 +31,8 @@ const POLYNOMIAL: [f64; 13] = [
 const EIGHTH_TURN: [f64; 2] = [0.785_398_163_397_445_6, 2.695_151_429_079_059_5e-15];
 
 impl Lowering<'_> {
-    /// The angle of the point (x, y). Its slope is (x y′ − y x′)/(x² + y²), and 0 where the point stands still at the origin.
+    /// The angle of the point (x, y). Its slope is (x y′ − y x′)/(x² + y²), and 0 where the point stands still at the
+    /// origin.
     pub fn angle(&mut self, y: Term, x: Term) -> Term {
         let value = self.angle_of_numbers(y.value, x.value);
         let slope = y.slope.zip(x.slope).map(|(of_y, of_x)| {

@@ -1,7 +1,8 @@
 //! Choices and piecewise linear curves, written out as steps in place of calls.
 //!
-//! The steps follow the runtime (`runtime/src/force`, `runtime/src/curve/{lines,breakpoint_indicator}.rs`) operation by operation, so they give the same bits. A
-//! call stores all values that are in registers and loads them again, which takes longer than most laws.
+//! The steps follow the runtime (`runtime/src/force`, `runtime/src/curve/{lines,breakpoint_indicator}.rs`) operation by
+//! operation, so they give the same bits. A call stores all values that are in registers and loads them again, which
+//! takes longer than most laws.
 
 use super::steps::Lowering;
 use super::terms::Term;
@@ -28,8 +29,8 @@ impl Lowering<'_> {
 
     /// `then` where a < b, `otherwise` elsewhere. NaN where the comparison fails because a or b is not finite.
     fn choose(&mut self, a: Term, b: Term, then: Term, otherwise: Term) -> Term {
-        // What the runtime adds to `otherwise` is +0 or NaN. To add it to a constant +0, or the +0 of a constant to it, changes
-        // no bit. A constant that is too large for single precision becomes infinite there.
+        // What the runtime adds to `otherwise` is +0 or NaN. To add it to a constant +0, or the +0 of a constant to it,
+        // changes no bit. A constant that is too large for single precision becomes infinite there.
         let [of_a, of_b, given] =
             [a, b, otherwise].map(|term| self.numbers.constant_of(term.value));
         let most = f64::from(f32::MAX);

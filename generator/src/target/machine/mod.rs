@@ -18,8 +18,8 @@
 //!
 //! A `Processor` (in `emit`) writes the instructions. Each processor has a folder beside this one.
 //!
-//! The code is one function for a whole list. The function branches only for rare numbers. It uses the stack only as far as calls need it, and works in a
-//! frame that the caller provides. Results are written as soon as they are known.
+//! The code is one function for a whole list. The function branches only for rare numbers. It uses the stack only as
+//! far as calls need it, and works in a frame that the caller provides. Results are written as soon as they are known.
 
 mod angle;
 mod approach;

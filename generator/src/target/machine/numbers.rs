@@ -1,8 +1,8 @@
 //! Steps on numbers and their negatives.
 //!
-//! A negation disappears if the next operation can absorb it without changing a bit: a sum becomes a difference, a fused operation gets
-//! other signs, and a product or quotient passes the sign on. The sign of a sum is not moved, because −(a + b) and (−a) + (−b) differ in the
-//! sign of zero.
+//! A negation disappears if the next operation can absorb it without changing a bit: a sum becomes a difference, a
+//! fused operation gets other signs, and a product or quotient passes the sign on. The sign of a sum is not moved,
+//! because −(a + b) and (−a) + (−b) differ in the sign of zero.
 
 use super::operation::{Binary, Bitwise, Signs};
 use super::steps::{Origin, Step, StepKind, Steps};

@@ -73,8 +73,9 @@ impl Registers {
             .then(|| Vector(candidates.trailing_zeros() as u8))
     }
 
-    /// The value to evict from its register: the one whose next use is latest (Belady 1966). `stored` says whether a value is also in
-    /// memory. Such a value is preferred even if it is used somewhat earlier, because it needs no store.
+    /// The value to evict from its register: the one whose next use is latest (Belady 1966). `stored` says whether a
+    /// value is also in memory. Such a value is preferred even if it is used somewhat earlier, because it needs no
+    /// store.
     pub fn victim(&self, keep: Set, stored: impl Fn(u32) -> bool) -> u32 {
         let mut victim = (0, EMPTY);
         for register in 0..self.count {

@@ -111,7 +111,8 @@ impl State {
         quote! {
             #[allow(dead_code)]
             impl<T: Real> Mechanism<T> {
-                /// v̇ at a whole state, as [`Model::initial_state`] and runs have it. Force laws may get states of their own, and what calls this stays as it is.
+                /// v̇ at a whole state, as [`Model::initial_state`] and runs have it. Force laws may get states of
+                /// their own, and what calls this stays as it is.
                 #[inline(always)]
                 pub fn accelerations_of(&self, t: T, y: &[T; STATE]) -> [T; VELOCITIES] {
                     #split

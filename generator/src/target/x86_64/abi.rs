@@ -1,7 +1,7 @@
 //! The calling convention: the emitted functions, and the functions that they call, are `extern "sysv64"`.
 //!
-//! The pointers that a function needs are kept in general registers. If there are more pointers than registers, the others are read from the struct
-//! of pointers at each use.
+//! The pointers that a function needs are kept in general registers. If there are more pointers than registers, the
+//! others are read from the struct of pointers at each use.
 
 use super::encode::{Encoder, General, Memory};
 use crate::target::machine::Base;

@@ -1,7 +1,8 @@
 //! The encoding of the instructions that this target needs.
 //!
-//! Instructions on vector registers have a VEX prefix if possible. They have an EVEX prefix with 64-byte registers, with registers 16 to 31, and
-//! where memory is broadcast. The layouts are those of the Intel manual, volume 2, chapter 2.
+//! Instructions on vector registers have a VEX prefix if possible. They have an EVEX prefix with 64-byte registers,
+//! with registers 16 to 31, and where memory is broadcast. The layouts are those of the Intel manual, volume 2,
+//! chapter 2.
 
 use crate::target::machine::operation::{Binary, Bitwise, CodePosition, Jump, Signs, Vector};
 use crate::target::machine::shape::{Length, Precision, Shape};

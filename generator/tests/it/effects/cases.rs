@@ -4,7 +4,8 @@
 pub struct Case {
     /// Word of the vocabulary, as [`word`](super::word) and [`terms`](super::terms) have it.
     pub word: &'static str,
-    /// Name of the effect that [`effect::without`] is to leave out, with the same result; empty where that is another model.
+    /// Name of the effect that [`effect::without`] is to leave out, with the same result; empty where that is another
+    /// model.
     pub effect: &'static str,
     pub scene: fn(&str) -> String,
     pub on: &'static str,

@@ -1,4 +1,5 @@
-//! Slips of the pen, made at many lines of the bundled models: the message names the line, and one mistake neither hides nor invents another.
+//! Slips of the pen, made at many lines of the bundled models: the message names the line, and one mistake neither
+//! hides nor invents another.
 
 use bryant_generator::Diagnostics;
 use bryant_generator::read_str;

@@ -113,7 +113,8 @@ fn links_without_mass_get_one_or_are_fixed() {
 
 #[test]
 fn tensors_of_no_body_become_the_nearest() {
-    // moments of 0.06, 0.02 and 0.015: the nearest point with a = b + c is (0.06 − 0.035) / 3 from each, along (−1, 1, 1)
+    // moments of 0.06, 0.02 and 0.015: the nearest point with a = b + c is (0.06 − 0.035) / 3 from each, along (−1,
+    // 1, 1)
     let flat = about_y("").replace("ixx=\"0.01\"", "ixx=\"0.06\"");
     refused(&flat);
     let (yaml, said) = repaired(&flat);

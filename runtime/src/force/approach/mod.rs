@@ -5,9 +5,9 @@
 //! φ(n) = h₁(n) + h₂(n) − n·d,   h_i = √(nᵀ Q_i n),
 //!
 //! where d is the vector from centre to centre and Q = R diag(a²) Rᵀ. h is the support function of an ellipsoid, and
-//! h₁ + h₂ that of the Minkowski sum of the first and the mirrored second. The penetration is the smallest φ; where it is
-//! negative, its magnitude is the distance of the two. The search goes downhill to this n ([`space`], [`plane`]). The
-//! length of n does not matter: φ is homogeneous of degree 1.
+//! h₁ + h₂ that of the Minkowski sum of the first and the mirrored second. The penetration is the smallest φ; where it
+//! is negative, its magnitude is the distance of the two. The search goes downhill to this n ([`space`], [`plane`]).
+//! The length of n does not matter: φ is homogeneous of degree 1.
 //!
 //! **Far.** Each n with φ(n) < 0 is the normal of a plane between the two bodies (separating axis theorem), and −φ(n)
 //! is at most their distance. `touch` ends at the first such n that it meets. It tries the line of centres first, which

@@ -185,8 +185,8 @@ fn lanes_and_derivatives_pass() {
     }
 }
 
-/// The gap of the deepest points is φ n. This is the condition for the smallest φ; its derivative by each component of d holds, too.
-/// `unit` bounds the relative error of an operation.
+/// The gap of the deepest points is φ n. This is the condition for the smallest φ; its derivative by each component of
+/// d holds, too. `unit` bounds the relative error of an operation.
 fn the_least_is_met_to_all_digits<T: Real>(unit: f64) {
     let constant = |value: f64| Dual::constant(T::from_f64(value));
     for (a, b, d) in pairs() {
@@ -198,8 +198,8 @@ fn the_least_is_met_to_all_digits<T: Real>(unit: f64) {
             let n = [x, y, z];
             let now = overlap(&[Quadric(a), Quadric(b)], d, n);
             let turn = n.iter().map(|x| x.slope.to_f64().abs()).fold(0.0, f64::max);
-            // n has an error of two roundings, and radii of curvature of 10 m each turn that into 40 of the gap. Some 16 roundings of
-            // lengths below 4 m give the rest. The derivatives change by as much as n
+            // n has an error of two roundings, and radii of curvature of 10 m each turn that into 40 of the gap. Some
+            // 16 roundings of lengths below 4 m give the rest. The derivatives change by as much as n
             let bound = (40.0 + 16.0 * 4.0) * unit;
             for i in 0..3 {
                 let gap = now.furthest[0][i] + now.furthest[1][i] - d[i];
@@ -307,8 +307,8 @@ impl Random {
     }
 }
 
-/// A pair of bodies whose centres are `share` times as far apart as when they touch. If asked for, the plane y = 0 is a plane of
-/// symmetry.
+/// A pair of bodies whose centres are `share` times as far apart as when they touch. If asked for, the plane y = 0 is a
+/// plane of symmetry.
 #[derive(Clone, Copy)]
 struct Case {
     first: [f64; 6],
@@ -486,8 +486,8 @@ fn deep_in_each_other_no_direction_beside_overlaps_less() {
     }
 }
 
-/// With twice the digits, the gap of the furthest points is φ n. The remaining component across n is the error of n times a radius of
-/// curvature.
+/// With twice the digits, the gap of the furthest points is φ n. The remaining component across n is the error of n
+/// times a radius of curvature.
 #[test]
 fn the_direction_is_exact_for_long_shapes_too() {
     let c = DoubleDouble::from_f64;
@@ -507,7 +507,8 @@ fn the_direction_is_exact_for_long_shapes_too() {
                 let both = [Quadric(case.first.map(c)), Quadric(case.second.map(c))];
                 let d = case.between.map(c);
                 let now = overlap(&both, d, [x, y, z].map(c));
-                // the radii of curvature are at most a²/b, 6 m; n and the numbers that it is computed from are rounded at 10⁻¹⁶
+                // the radii of curvature are at most a²/b, 6 m; n and the numbers that it is computed from are rounded
+                // at 10⁻¹⁶
                 let bound = 6.0 * 8.0 * f64::EPSILON + 16.0 * f64::EPSILON * case.size();
                 for (i, n) in [x, y, z].into_iter().enumerate() {
                     let gap = now.furthest[0][i] + now.furthest[1][i] - d[i];
@@ -525,7 +526,8 @@ fn bodies_with_a_common_point_are_never_far() {
     for planar in [false, true] {
         for _ in 0..20_000 {
             let (a, b) = (random.shape(20.0, planar), random.shape(20.0, planar));
-            // a point inside each body: from its centre a part of the way to the point that is furthest in some direction
+            // a point inside each body: from its centre a part of the way to the point that is furthest in some
+            // direction
             let mut inside = |q: [f64; 6]| {
                 let mut n = random.direction();
                 if planar {
@@ -811,7 +813,8 @@ fn singles_have_the_digits_of_singles() {
                 true => in_plane(case.plane::<f32>(), false)[2],
                 false => in_space(case.space::<f32>(), false)[3],
             };
-            // the shapes are rounded, too: an entry of Q is off by a part of the largest one, and h along a short axis by 20 times that
+            // the shapes are rounded, too: an entry of Q is off by a part of the largest one, and h along a short axis
+            // by 20 times that
             let bound = 32.0 * f64::from(f32::EPSILON) * case.size();
             assert!((f64::from(single) - double).abs() <= bound);
         }

@@ -77,7 +77,8 @@ fn lines_have_no_kink() {
 
 #[test]
 fn of_cubics_the_bend_counts() {
-    // x³ with its slopes: one polynomial. At 2 a line continues differently, at 0 it does not: slope and second derivative are 0 there
+    // x³ with its slopes: one polynomial. At 2 a line continues differently, at 0 it does not: slope and second
+    // derivative are 0 there
     let cube = [[0.0, 0.0, 0.0], [1.0, 1.0, 3.0], [2.0, 8.0, 12.0]];
     let curve = Cubic::new(cube, Extrapolate::Linear);
     for x in [-3.0, 0.5, 1.0, 1.5, 2.0, 4.0] {

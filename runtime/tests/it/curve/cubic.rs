@@ -127,8 +127,8 @@ fn more_digits_than_a_double_s_stay() {
         near(slope.slope, c(6.0) * x, bound);
         near(LINEAR.second_derivative(x), c(6.0) * x, bound);
     }
-    // bisection ends at 2⁻⁵⁴ of a piece, and each Newton step squares that error (of the derivative a step later), where the curve is
-    // not about to turn (at y = 3)
+    // bisection ends at 2⁻⁵⁴ of a piece, and each Newton step squares that error (of the derivative a step later),
+    // where the curve is not about to turn (at y = 3)
     for i in 1..=30 {
         let y = c(f64::from(i)) * c(0.3) - c(0.1) / c(3.0);
         let x = LINEAR.inverse(Dual::variable(y));

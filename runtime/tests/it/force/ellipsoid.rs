@@ -83,8 +83,9 @@ fn more_digits_than_a_double_s_stay() {
                 moving[along].slope = c(1.0);
                 let power = Dual::constant(c(power));
                 let [h, dx, dy, dz] = support(moving[0], moving[1], moving[2], power);
-                // h is the sum of its slopes times s (Euler). Powers of parts down to 10⁻²⁰⁰ have errors up to 40 · 460 u²,
-                // but these parts of the sum are that much smaller; powers of parts above 10⁻⁹ have errors up to 40 · 21 u²
+                // h is the sum of its slopes times s (Euler). Powers of parts down to 10⁻²⁰⁰ have errors up to 40 · 460
+                // u², but these parts of the sum are that much smaller; powers of parts above 10⁻⁹ have errors up to 40
+                // · 21 u²
                 let bound = 1024.0 * u2;
                 let d = [dx.value, dy.value, dz.value];
                 let euler = s[0] * d[0] + s[1] * d[1] + s[2] * d[2];

@@ -37,7 +37,8 @@ fn compare<T: Real, M: Model<T>>(model: &M, epsilon: f64) {
     let (start, step) = (T::from_f64(0.0), T::from_f64(h));
     let end = march_adams(model, start, step, steps, &mut found);
     assert_eq!(end.to_f64(), h * f64::from(steps));
-    // derivatives below 100 count 23 h in each step, with a rounding for each of six weights, and what they grow by in two seconds
+    // derivatives below 100 count 23 h in each step, with a rounding for each of six weights, and what they grow by in
+    // two seconds
     let bound = 6.0 * epsilon * 100.0 * 23.0 * h * f64::from(steps) * 10.0;
     for i in 0..M::State::LEN {
         let difference = (found[i] - expected[i]).to_f64().abs();

@@ -81,8 +81,8 @@ fn compare_with<T: Real, M: Model<T>>(
     textbook(model, h, steps, &mut expected);
     let end = march(model, T::from_f64(0.0), T::from_f64(h), steps, &mut found);
     assert_eq!(end.to_f64(), h * f64::from(steps));
-    // some ten roundings of numbers below 100 in each step (weights of order 8 go up to 44, but are multiplied by h), and their growth in two
-    // seconds
+    // some ten roundings of numbers below 100 in each step (weights of order 8 go up to 44, but are multiplied by h),
+    // and their growth in two seconds
     let bound = 10.0 * epsilon * 100.0 * f64::from(steps) * 10.0;
     for i in 0..M::State::LEN {
         let difference = (found[i] - expected[i]).to_f64().abs();

@@ -60,7 +60,8 @@ fn ramp<T: Real>(height: T, end: T) -> (Vec<T>, Vec<Jump<T>>) {
 
 #[test]
 fn a_ramp_that_ends_between_samples_is_known_in_closed_form() {
-    // Windows of HIC from u E to the end E: L = (1 − u) E, mean (1 + u) h/2. L mean^2.5 is largest at u = 3/7, here on a sample.
+    // Windows of HIC from u E to the end E: L = (1 − u) E, mean (1 + u) h/2. L mean^2.5 is largest at u = 3/7, here on
+    // a sample.
     let (h, e) = (300.0, 28e-3 / 3.0);
     let duration = 3.3e-3;
     let hic = |h: f64, e: f64| 4.0 / 7.0 * e * (5.0 / 7.0 * h / STANDARD_GRAVITY).powf(2.5);
@@ -177,9 +178,9 @@ fn derivatives_are_those_of_differences() {
         let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
         assert_eq!(found.value, of(p), "{kind:?}");
         let difference = (of(p + step) - of(p - step)) / (2.0 * step);
-        // The phase goes up to 6, so that a third derivative is some hundred times the first: the error of the difference is that times the
-        // square of the step. In addition, some hundred roundings of sums over forty samples and of differences of neighbours, divided by the
-        // step.
+        // The phase goes up to 6, so that a third derivative is some hundred times the first: the error of the
+        // difference is that times the square of the step. In addition, some hundred roundings of sums over forty
+        // samples and of differences of neighbours, divided by the step.
         let bound = 1e-9 * found.slope.abs() + 1e3 * f64::EPSILON * found.value.abs() / step;
         assert!(
             (found.slope - difference).abs() <= bound,
@@ -200,9 +201,9 @@ fn values_are_those_of_much_finer_samples() {
         let mut scratch = vec![0.0; kind.scratch(finely.len())];
         let exact = reduce(kind, &finely, fine, &mut scratch);
         let found = reduce_with_jumps(kind, &samples, &jumps, EVERY);
-        // Both lines err, so twice: the wave bends by at most 200 · 152² between samples, h²/8 of that off the line. The fine samples show a jump
-        // of 90 to within 2 µs, in windows of some ms. The criterion takes both to the power of 2.5. Times of peaks move by a quarter of an
-        // interval where no jump marks them.
+        // Both lines err, so twice: the wave bends by at most 200 · 152² between samples, h²/8 of that off the line.
+        // The fine samples show a jump of 90 to within 2 µs, in windows of some ms. The criterion takes both to the
+        // power of 2.5. Times of peaks move by a quarter of an interval where no jump marks them.
         let bend = 200.0 * 152.0 * 152.0 * EVERY * EVERY / 8.0;
         let level = bend + 110.0 * 2.0 * fine / 3.3e-3;
         let bound = match kind {
@@ -306,8 +307,9 @@ fn what_is_no_number_has_no_answer() {
     assert!(reduce_with_jumps(long, &samples, &jumps, EVERY).is_nan());
 }
 
-/// A step from b to a in the middle between two samples, moved by one interval either way, changes the two samples there by b − a. The difference
-/// of both results over two intervals is the slope of the filtered signal, because a filter is linear.
+/// A step from b to a in the middle between two samples, moved by one interval either way, changes the two samples
+/// there by b − a. The difference of both results over two intervals is the slope of the filtered signal, because a
+/// filter is linear.
 #[test]
 fn filters_have_the_slope_that_a_moving_step_gives_them() {
     use bryant_runtime::response::filter::{Class, Standard, filtered};

@@ -8,8 +8,8 @@ fn olc(samples: &[f64]) -> f64 {
     reduce(Response::Olc, samples, EVERY, &mut [])
 }
 
-/// A constant deceleration c: s = c t²/2, so t₁² = 0.13/c, and c t²/2 − c t (t − t₁)/2 = c t t₁/2 = 0.3 at t₂ = 0.6/(c t₁). With
-/// t₂/t₁ = 0.6/0.13 the criterion is c t₂/(t₂ − t₁) = c · 0.6/0.47.
+/// A constant deceleration c: s = c t²/2, so t₁² = 0.13/c, and c t²/2 − c t (t − t₁)/2 = c t t₁/2 = 0.3 at t₂ = 0.6/(c
+/// t₁). With t₂/t₁ = 0.6/0.13 the criterion is c t₂/(t₂ − t₁) = c · 0.6/0.47.
 #[test]
 fn a_constant_pulse_has_the_criterion_of_the_closed_form() {
     for pulse in [-200.0, 200.0, -80.0] {

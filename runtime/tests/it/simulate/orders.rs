@@ -150,8 +150,8 @@ fn every_method_has_its_order_on_a_smooth_problem() {
     }
 }
 
-/// Height and velocity of [`Ball`] at 3 s: free fall of √0.2 s, then an oscillation about −0.1 m at 10 rad/s until it leaves with
-/// the velocity that it came with, and so on.
+/// Height and velocity of [`Ball`] at 3 s: free fall of √0.2 s, then an oscillation about −0.1 m at 10 rad/s until it
+/// leaves with the velocity that it came with, and so on.
 fn ball() -> [f64; 2] {
     let (g, omega) = (10.0f64, 10.0f64);
     let fall = (2.0 / g).sqrt();
@@ -207,8 +207,8 @@ const WITH_ORDER: [Formula; 7] = [
     Formula::Rodas5,
 ];
 
-/// Steps between events are of lengths that do not scale exactly, so that the observed order scatters a little; a method may be
-/// better than its order on a linear problem, as both of these are between their kinks.
+/// Steps between events are of lengths that do not scale exactly, so that the observed order scatters a little; a
+/// method may be better than its order on a linear problem, as both of these are between their kinks.
 fn check<M: Model<f64>>(exact: &[f64], without: f64) {
     for formula in WITH_ORDER {
         let nominal = f64::from(formula.order());
@@ -264,8 +264,8 @@ fn error_follows_the_tolerance_with_kinks_located_or_not() {
                 };
                 let report = simulate_stiff::<f64, _>(&model, &settings, &mut |_| {}).unwrap();
                 let error = error::<Tether>(method, locate, &tether());
-                // each step may err by (1 + |y|) tolerances, at most 3; an error of position becomes one of velocity, ten
-                // times as large on the belt of 10 rad/s; what kinks add is within a step's tolerance
+                // each step may err by (1 + |y|) tolerances, at most 3; an error of position becomes one of velocity,
+                // ten times as large on the belt of 10 rad/s; what kinks add is within a step's tolerance
                 assert!(
                     error < 30.0 * report.steps as f64 * tolerance,
                     "{formula} {locate}: {error:e} at {tolerance:e}"

@@ -42,7 +42,8 @@ fn whole(
     (samples, report.unwrap(), watch.balance.gap().to_bits())
 }
 
-/// The same by a run that is asked for one sample after the other, and for each as often; and for one between two of them where `between`.
+/// The same by a run that is asked for one sample after the other, and for each as often; and for one between two of
+/// them where `between`.
 fn piecewise(
     (model, start): (&dyn Dynamics<f64>, &[f64]),
     settings: &Settings,
@@ -223,7 +224,8 @@ fn halves(method: Integrator, at: f64) -> (f64, Vec<f64>) {
 
 #[test]
 fn a_run_that_begins_later_meets_all_later_kinks() {
-    // the pulse has its kinks before and behind; where steps end on them, Runge-Kutta 4 integrates its straight lines exactly
+    // the pulse has its kinks before and behind; where steps end on them, Runge-Kutta 4 integrates its straight lines
+    // exactly
     let kinks = <Follower as Model<f64>>::INFO.breakpoints;
     let end = kinks[kinks.len() - 1];
     let duration = <Follower as Model<f64>>::INFO.duration;

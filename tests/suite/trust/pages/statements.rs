@@ -28,7 +28,8 @@ fn slope(body: &Moving, direction: usize, energy: &dyn Fn(&Moving) -> f64) -> f6
     -(8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)
 }
 
-/// A fading edge: force and moment together are the gradient of the energy w ∫ f dδ. The moment is that of an ellipsoid; of a sphere it is 0.
+/// A fading edge: force and moment together are the gradient of the energy w ∫ f dδ. The moment is that of an
+/// ellipsoid; of a sphere it is 0.
 #[test]
 fn an_edge_that_fades_turns_an_ellipsoid() {
     let scene = FreeBody::new(
@@ -60,7 +61,8 @@ fn an_edge_that_fades_turns_an_ellipsoid() {
         let [force, moment] = [0, 3].map(|k| [0, 1, 2].map(|i| slope(&body, k + i, &energy)));
         let ours = scene.acts(&body, 0.0, &[], &[]);
         let off = norm(minus(ours.force, force)).max(norm(minus(ours.moment, moment)));
-        // h⁴/30 times a fifth derivative (some 1e4 N/m · 1e9/m³ at most, where the curvature of the ellipsoid and of S is largest)
+        // h⁴/30 times a fifth derivative (some 1e4 N/m · 1e9/m³ at most, where the curvature of the ellipsoid and of S
+        // is largest)
         assert!(
             off < 1e-4 * (1.0 + norm(force)),
             "{ours:?} instead of {force:?} {moment:?}"
@@ -97,7 +99,8 @@ fn spans(body: &Moving) -> ([Vector; 2], [f64; 2]) {
     ([from, to].map(|end| minus(end, point)), lengths)
 }
 
-/// Before the switch of `since` nothing pulls and nothing slips; behind it webbing slips without friction by the difference of the tensions.
+/// Before the switch of `since` nothing pulls and nothing slips; behind it webbing slips without friction by the
+/// difference of the tensions.
 #[test]
 fn a_belt_that_waits_does_not_slip() {
     let scene = over_a_ring("since: now");
@@ -168,7 +171,8 @@ fn the_damping_of_a_segment_grows_with_its_own_stretch() {
     assert!(differ > 20, "{differ}");
 }
 
-/// With damping the limiter bounds the whole tension, but it pays out by the stretch alone: as much as the elastic tension would exceed it.
+/// With damping the limiter bounds the whole tension, but it pays out by the stretch alone: as much as the elastic
+/// tension would exceed it.
 #[test]
 fn a_limiter_pays_out_by_the_stretch_alone() {
     let law = |damping: &str| {
@@ -239,7 +243,8 @@ fn a_limiter_pays_out_by_the_stretch_alone() {
     assert!(bound > 10 && yielded > 10, "{bound} {yielded}");
 }
 
-/// In the plane θ₂ is the difference of two angles that count turns: a bushing that has turned once more resists by 2π k more.
+/// In the plane θ₂ is the difference of two angles that count turns: a bushing that has turned once more resists by 2π
+/// k more.
 #[test]
 fn a_planar_bushing_counts_turns() {
     let text = "model: page\ndimension: 2\nsystems:\n  - name: one\n    elements: [{ name: body, mass: 2, cg: [0, 0], inertia: 0.5 }]\nforces:\n  - { bushing: b, from: { on: frame, at: [0, 0] }, to: { on: one/body, at: [0, 0] }, about: { y: { stiffness: 3 } } }\n";

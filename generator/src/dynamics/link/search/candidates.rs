@@ -136,8 +136,9 @@ impl Search<'_, '_> {
     }
 }
 
-/// The largest distance of the origin of a link from its joint \[m\]: four times the largest distance in the tree, between joints or between a centre
-/// of mass and its joint. About an origin s such distances away, an inertia is s² times as large and loses that factor in accuracy; 16 is little.
+/// The largest distance of the origin of a link from its joint \[m\]: four times the largest distance in the tree,
+/// between joints or between a centre of mass and its joint. About an origin s such distances away, an inertia is s²
+/// times as large and loses that factor in accuracy; 16 is little.
 pub fn reach(tree: &Tree<'_>) -> f64 {
     let constant = |e: Expr<'_>| e.as_constant().unwrap_or(0.0);
     let norm = |v: Vec3<'_>| v.0.map(constant).iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -1,8 +1,10 @@
-//! The search for frames in which the equations of a tree have the fewest operations: descent on the count, choice by choice.
+//! The search for frames in which the equations of a tree have the fewest operations: descent on the count, choice by
+//! choice.
 //!
-//! Every trial derives the equations in a graph of its own and counts their operations; those that depend on parameters alone are free. Only a part
-//! of the tree is derived again: the links near the one whose choice is tried, with unknowns in place of the others. The number of trials depends on
-//! the tree alone, so the same model has the same frames on every machine.
+//! Every trial derives the equations in a graph of its own and counts their operations; those that depend on parameters
+//! alone are free. Only a part of the tree is derived again: the links near the one whose choice is tried, with
+//! unknowns in place of the others. The number of trials depends on the tree alone, so the same model has the same
+//! frames on every machine.
 
 mod candidates;
 mod part;
@@ -30,8 +32,9 @@ const UNITS: usize = 8;
 /// The smallest number of links in a part of a tree, if the tree has as many.
 const NEAR: usize = 8;
 
-/// From so many links on a part goes no further inwards, even where a link keeps its axes and is turned together with its carrier: else the part of a chain of
-/// parallel axes reaches to the root, and the time for a choice grows with the square of its length.
+/// From so many links on a part goes no further inwards, even where a link keeps its axes and is turned together with
+/// its carrier: else the part of a chain of parallel axes reaches to the root, and the time for a choice grows with the
+/// square of its length.
 const FAR: usize = 16;
 
 /// Number of trees whose choice is stored.
@@ -50,11 +53,12 @@ pub enum Aim {
     InverseDynamics,
 }
 
-/// The choices for earlier trees, by their [signature](Search::signature). Many effects and parameters do not change the tree.
+/// The choices for earlier trees, by their [signature](Search::signature). Many effects and parameters do not change
+/// the tree.
 static KNOWN: Mutex<Vec<(Vec<u64>, Choice)>> = Mutex::new(Vec::new());
 
-/// The operations of the parts of earlier trees: trees that differ in one link have most parts in common. They are found by shape and numbers, on
-/// which alone they depend, so it does not matter which are here.
+/// The operations of the parts of earlier trees: trees that differ in one link have most parts in common. They are
+/// found by shape and numbers, on which alone they depend, so it does not matter which are here.
 static COUNTED: LazyLock<Mutex<Arc<Counted>>> = LazyLock::new(Mutex::default);
 
 type Counted = FxHashMap<(Aim, Exact), usize>;
@@ -116,7 +120,8 @@ pub fn drawn(tree: &Tree<'_>, aim: Aim, draw: &mut dyn FnMut(usize) -> usize) ->
 struct Search<'t, 'g> {
     tree: &'t Tree<'g>,
     aim: Aim,
-    /// For each node of the tree's graph that the tree has: whether it changes with the state, and its number as a symbol.
+    /// For each node of the tree's graph that the tree has: whether it changes with the state, and its number as a
+    /// symbol.
     inputs: Vec<Option<(bool, u32)>>,
     /// The number of these nodes.
     symbols: u32,

@@ -1,9 +1,10 @@
 //! What the number of operations of a part depends on: parts of equal shape are counted once.
 //!
-//! Equations treat all numbers alike except 0, 1, −1 and those that are equal or opposite, because a sign costs nothing; and all inputs alike
-//! except parameters. So a number counts as 0, as ±1, or as plus or minus the first, second, … number of the part; and an input as the first,
-//! second, … input. In a chain of unlike bodies most parts have the shape of a part before. A sum of unlike numbers that happens to vanish is not
-//! seen: then the count is that of a part without such luck.
+//! Equations treat all numbers alike except 0, 1, −1 and those that are equal or opposite, because a sign costs
+//! nothing; and all inputs alike except parameters. So a number counts as 0, as ±1, or as plus or minus the first,
+//! second, … number of the part; and an input as the first, second, … input. In a chain of unlike bodies most parts
+//! have the shape of a part before. A sum of unlike numbers that happens to vanish is not seen: then the count is that
+//! of a part without such luck.
 
 use super::part::Part;
 use crate::dynamics::link::body::Body;
@@ -96,7 +97,8 @@ struct Shape<'h> {
     /// For each node, its number among those that were met, from 1; 0 if it was not.
     seen: Vec<u32>,
     count: u32,
-    /// The sizes of the numbers that were met, each with its place among them and whether the first of this size was negative.
+    /// The sizes of the numbers that were met, each with its place among them and whether the first of this size was
+    /// negative.
     numbers: FxHashMap<u64, (u64, bool)>,
 }
 
@@ -240,8 +242,8 @@ impl Shape<'_> {
         }
     }
 
-    /// A link in its frame: the numbers that it is made of, and where they go. What the angles of aligned links make of these numbers is the same
-    /// for all, but for signs.
+    /// A link in its frame: the numbers that it is made of, and where they go. What the angles of aligned links make of
+    /// these numbers is the same for all, but for signs.
     fn frame(&mut self, frame: &FramedLink<'_>, made_of: &MadeOf<'_>) {
         self.word(frame.turns.len() as u64);
         for turn in &frame.turns {

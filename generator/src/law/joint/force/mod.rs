@@ -1,6 +1,7 @@
 //! Joint torque: a separate law about each relative rotation θ_i.   \[MADYMO 1980, force model 1\]
 //!
-//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + friction + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i) + motor(t) + drive(t, θ_i, θ̇_i)
+//! Q_i = −elastic(θ_i − neutral) − damping · θ̇_i + friction + stop(θ_i, θ̇_i) + lock(θ_i, θ̇_i) + motor(t) + drive(t,
+//! θ_i, θ̇_i)
 //!
 //! In the plane θ = φ_child − φ_parent, and the moment is Q e_y. In space θ_i are the Bryant angles of A_parentᵀ
 //! A_child, about the axes e₁ = x of the parent, e₃ = z of the child, and e₂ along e₃ × e₁. These axes are not

@@ -4,8 +4,8 @@ fn made(sex: Sex, stature: f64, mass: f64) -> Result<Body, String> {
     body(&Person::Size(Size { sex, stature, mass }))
 }
 
-/// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, derived independently from the same table, printed to four decimals (moments to
-/// six).
+/// A man of 77.7 kg and 1.753 m and a woman of 49 kg and 1.501 m, derived independently from the same table, printed to
+/// four decimals (moments to six).
 // Long: the numbers of two bodies.
 #[test]
 fn bodies_are_those_of_an_independent_derivation() {

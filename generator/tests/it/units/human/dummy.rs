@@ -17,7 +17,8 @@ fn dummies_have_the_masses_that_are_printed() {
     assert!(dummy("male-50").is_none());
 }
 
-/// A child's torso, neck, head and limbs, derived independently from the same page: `models/data/child-3yo.yaml`, where legs and arms are pairs.
+/// A child's torso, neck, head and limbs, derived independently from the same page: `models/data/child-3yo.yaml`, where
+/// legs and arms are pairs.
 #[test]
 fn the_three_year_old_is_that_of_an_independent_derivation() {
     let made = dummy("child-3").unwrap();

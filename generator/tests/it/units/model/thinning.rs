@@ -30,8 +30,8 @@ fn a_curve_of_many_points_is_thinned_with_its_error() {
         let off = |point: &[f64; 2]| (thin.value(point[0]) - point[1]).abs();
         let largest = all.points.iter().map(off).fold(0.0, f64::max);
         assert_eq!(thinned.error, largest);
-        // a line over two intervals misses its middle by h² |y''|/2, |y''| ≤ 300 30² + 3e3² = 9.27e6: 0.046; then half of the points
-        // would be enough. A cubic is level at its extremes, and errs by more
+        // a line over two intervals misses its middle by h² |y''|/2, |y''| ≤ 300 30² + 3e3² = 9.27e6: 0.046; then half
+        // of the points would be enough. A cubic is level at its extremes, and errs by more
         let is_line = interpolate == Interpolate::Linear;
         assert!(!is_line || thinned.error < 0.047, "{}", thinned.error);
         let ends = |curve: &Curve| [curve.points[0], curve.points[curve.points.len() - 1]];

@@ -1,4 +1,5 @@
-//! Another decoder reads back every instruction, with every kind of operand. Its text is compared with that of the intended instruction.
+//! Another decoder reads back every instruction, with every kind of operand. Its text is compared with that of the
+//! intended instruction.
 
 use bryant_generator::target::aarch64::abi::{Bases, SCRATCH};
 use bryant_generator::target::aarch64::emit::Arm;

@@ -1,4 +1,5 @@
-//! Another decoder reads back every instruction, with every kind of operand. The result is compared with the intended instruction.
+//! Another decoder reads back every instruction, with every kind of operand. The result is compared with the intended
+//! instruction.
 
 use bryant_generator::target::machine::operation::{Binary, Bitwise, Signs, Vector};
 use bryant_generator::target::machine::shape::{Length, Precision, Shape};
@@ -182,7 +183,8 @@ fn named(shape: Shape, [sd, ss, pd, ps]: [Mnemonic; 4]) -> Mnemonic {
     }
 }
 
-/// Tests all registers and last operands of an instruction that compares or selects; only registers 0 to 15 if it has no EVEX prefix.
+/// Tests all registers and last operands of an instruction that compares or selects; only registers 0 to 15 if it has
+/// no EVEX prefix.
 fn choice(
     shape: Shape,
     (mask, evex): (Register, bool),
@@ -318,9 +320,9 @@ fn scalars_are_chosen_as_whole_registers() {
     }
 }
 
-/// Tests destinations, first operands and last operands of an instruction with three operands. The lists of registers and of memory are long.
-/// So each destination and first operand is combined with the first two of the others, and all pairs of registers with the first two last
-/// operands.
+/// Tests destinations, first operands and last operands of an instruction with three operands. The lists of registers
+/// and of memory are long. So each destination and first operand is combined with the first two of the others, and all
+/// pairs of registers with the first two last operands.
 fn three(
     shape: Shape,
     last: &[(Operand, Meaning)],

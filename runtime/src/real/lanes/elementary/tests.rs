@@ -16,7 +16,8 @@ type Fused = Alone<f64, scalar_register::Fused>;
 /// The arithmetic of registers without them.
 type Unfused = Alone<f64, scalar_register::Apart>;
 
-/// The number of random points on which each bound is tried: other points in each run, and ten times as many with `BRYANT_TESTS=all`.
+/// The number of random points on which each bound is tried: other points in each run, and ten times as many with
+/// `BRYANT_TESTS=all`.
 fn points() -> usize {
     let all = std::env::var("BRYANT_TESTS").is_ok_and(|which| which == "all");
     if all { 1_000_000 } else { 100_000 }

@@ -1,8 +1,8 @@
 //! Properties of the symbolic core on random expressions.
 //!
 //! Every value carries a bound of its own rounding error (running error analysis, [`Bounded`]). Two ways to compute the
-//! same value may differ by twice the sum of their bounds: once for the roundings of each way, and once for numbers that
-//! were folded beforehand, whose roundings only the bound of the other way contains.
+//! same value may differ by twice the sum of their bounds: once for the roundings of each way, and once for numbers
+//! that were folded beforehand, whose roundings only the bound of the other way contains.
 
 mod parse;
 mod program;

@@ -76,7 +76,8 @@ fn without_fused_steps_they_are_within_one_ulp_too() {
 
 #[test]
 fn the_hardest_angles_are_right() {
-    // sine and cosine in 60 digits by mpmath 1.3; the first is the double nearest to a multiple of π/2 (Muller 2016, table 11.1)
+    // sine and cosine in 60 digits by mpmath 1.3; the first is the double nearest to a multiple of π/2 (Muller 2016,
+    // table 11.1)
     let known = [
         (5.319_372_648_326_541e+255, 1.0, -4.687_165_924_254_628e-19),
         (
