@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! study file ─file→ Study ─design→ rows ─engine→ outcomes ─store→ blocks in a folder ─table→ Parquet, CSV
-//!                                                                                  └─summary→ numbers, indices, pictures
+//!                                                                                  └─summary→ numbers, pictures
 //! ```
 //!
 //! This crate knows no model and no compiler: [`engine::Engine`] hides them. A row's parameters depend only on the

@@ -37,7 +37,7 @@
 //! asks for the kind of a freedom. The description language takes the keys from the file, and the model its two facts;
 //! the equations, the frames of links and the pictures use its turn and its advance. Without these three lines and file
 //! there are no screws, and their keys are unknown. Pages and tests must be extended besides: `docs/reference.md`,
-//! `docs/joints.md`, `generator/tests/it/joints.rs`, `dynamics/link/tests.rs`.
+//! `docs/joints.md`, `generator/tests/it/joints.rs`, `generator/tests/it/link.rs`.
 
 mod ball;
 mod hinge;

@@ -10,8 +10,8 @@
 //!
 //! To add a law, add a folder such as `spring/`, its `mod` here and its line in `laws!`. Equations, effects, pictures
 //! and reports never ask a force which law it is. Pages and tests must be extended besides: `docs/forces/`,
-//! `docs/reference.md`, `generator/tests/{effects,short}.rs`, `tests/suite/trust/`, and two lists of all laws in
-//! `tests/suite/{snapshots,invariance}.rs`.
+//! `docs/reference.md`, `generator/tests/it/{effects,short_forms}.rs`, `tests/suite/trust/`, and two lists of all laws
+//! in `tests/suite/{snapshots,invariance}.rs`.
 
 pub mod airbag;
 pub mod belt;

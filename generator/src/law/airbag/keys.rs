@@ -8,8 +8,8 @@ use crate::description::quantity::Number;
 use crate::description::shape::record;
 use crate::model::Ellipsoid;
 use crate::model::declared::{
-    Checked, Declared, DeclaredLaw, OrDefault, Present, Reader, Required, RequiredCurve,
-    SwitchName, Written, declare,
+    Checked, CurveOf, Declared, DeclaredLaw, OrDefault, Present, Reader, Required, SwitchName,
+    Written, declare,
 };
 use crate::model::resolve::law::{TitledKeys, record};
 
@@ -50,7 +50,7 @@ declare! {
         /// the [switch](#a-switch) that fires it
         fire: SwitchName,
         /// mass of gas per time, against the time since then; never negative
-        flow: Checked<RequiredCurve<Time, MassFlow>, NeverNegative>,
+        flow: Checked<CurveOf<Time, MassFlow>, NeverNegative>,
         /// absolute temperature of that gas
         temperature: Required<Positive<Temperature>>,
     }

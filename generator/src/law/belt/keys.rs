@@ -10,8 +10,8 @@ use crate::description::quantity::Number;
 use crate::description::shape::{Flat, record};
 use crate::model::Attachment;
 use crate::model::declared::{
-    Checked, Coefficient, Declared, DeclaredLaw, Fade, OrDefault, PointOfBody, Reader,
-    RequiredCurve, SwitchName, Unloading, Written, declare,
+    Checked, Coefficient, CurveOf, Declared, DeclaredLaw, Fade, OrDefault, PointOfBody, Reader,
+    SwitchName, Unloading, Written, declare,
 };
 use crate::model::resolve::law::{TitledKeys, record};
 
@@ -124,7 +124,7 @@ declare! {
         /// time from the switch until it begins
         delay: Coefficient<NotNegative<Time>> = "0",
         /// length of webbing taken in (L₀ decreases by it) against the time since it began; from `[0, 0]` on
-        retract: Checked<RequiredCurve<Time, Length>, FromZero>,
+        retract: Checked<CurveOf<Time, Length>, FromZero>,
     }
 }
 

@@ -1,19 +1,16 @@
 //! The keys of a given load.
 
-use crate::description::expand::{Expander, Node};
 use crate::description::force::Acting;
 use crate::description::measure::{Force, Moment};
-use crate::description::place::At;
 use crate::description::point::Point;
 use crate::description::shape::Flat;
 use crate::diagnostic::quoted;
+use crate::model::Number;
 use crate::model::declared::{
-    About, Along, DeclaredLaw, Kind, Names, Reader, Written, declare, declared_terms,
+    About, Along, DeclaredLaw, PointOfElement, Reader, Written, declare, declared_terms,
 };
 use crate::model::law::Terms;
-use crate::model::part::{Field, Part, attachment};
-use crate::model::resolve::{NOWHERE, Resolver};
-use crate::model::{Attachment, Body, ElementId, Number};
+use crate::model::part::Part;
 
 /// The keys of a load.
 pub type LoadKeys = Written<Load>;
@@ -65,54 +62,4 @@ impl Terms for Load {
             self.on.at = [Number::ZERO; 3];
         }
     }
-}
-
-/// A point of an element at the key `at`, by default its joint.
-pub struct PointOfElement;
-
-impl Kind for PointOfElement {
-    type Written = String;
-    type Kept = Attachment;
-
-    fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<Attachment> {
-        let path: String = reader.written(key)?;
-        let element = loaded_element(reader.resolver, &path, reader.at.key(key))?;
-        let point: Option<Point> = reader.written("at")?;
-        let place = reader.at.key("at");
-        Some(Attachment {
-            on: Body::Element(element),
-            at: point.map_or(NOWHERE, |point| {
-                reader.resolver.point(&point, element, place)
-            }),
-        })
-    }
-
-    fn add_fields<'a>(kept: &'a mut Attachment, _: &Names<'_>, to: &mut Vec<Field<'a>>) {
-        attachment(kept, "at", to);
-    }
-
-    fn add_bodies<'a>(kept: &'a mut Attachment, bodies: &mut Vec<&'a mut Body>) {
-        Attachment::add_bodies(kept, bodies);
-    }
-
-    fn flatten(kept: &mut Attachment) {
-        Attachment::flatten(kept);
-    }
-
-    fn mirror(expander: &Expander<'_>, record: &mut Node, key: &str) {
-        record.change(key, |element| expander.body(element));
-        record.change("at", |point| expander.polar(point));
-    }
-}
-
-/// The element that a load acts on. The absolute frame is refused.
-fn loaded_element(resolver: &Resolver<'_>, path: &str, at: At<'_>) -> Option<ElementId> {
-    if path == "frame" {
-        resolver.problems.add(at.problem(
-            "a load on the absolute frame moves nothing",
-            "name an element, as `system/element`",
-        ));
-        return None;
-    }
-    resolver.element_id(path, at)
 }

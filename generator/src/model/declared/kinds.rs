@@ -6,6 +6,7 @@ use crate::description::expand::{Expander, Node};
 use crate::description::force::Attachment as End;
 use crate::description::measure::{Angle, InPlace, LENGTH, Length, Measured, NotNegative, SPEED};
 use crate::description::place::At;
+use crate::description::point::Point;
 use crate::description::quantity::{Number as WrittenNumber, OneOrThree, Quantity};
 use crate::description::short_forms::ByName;
 use crate::description::surface::Ellipsoid as WrittenEllipsoid;
@@ -625,10 +626,11 @@ impl<D: Declared> Kind for Present<D> {
     }
 }
 
-/// A curve that must be written: a function of `X`, measured in `Y`.
-pub struct RequiredCurve<X, Y>(PhantomData<(X, Y)>);
+/// A curve that must be written: a function of `X`, measured in `Y`. `Option<CurveOf<X, Y>>` is one that may be absent,
+/// a term.
+pub struct CurveOf<X, Y>(PhantomData<(X, Y)>);
 
-impl<X: Measured, Y: Measured> Kind for RequiredCurve<X, Y> {
+impl<X: Measured, Y: Measured> Kind for CurveOf<X, Y> {
     type Written = FunctionOf<X, Y>;
     type Kept = ScaledCurve;
 
@@ -638,6 +640,21 @@ impl<X: Measured, Y: Measured> Kind for RequiredCurve<X, Y> {
     }
 
     fn add_fields<'a>(kept: &'a mut ScaledCurve, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        to.push(Field::Term(names.term(Rule::Finite), kept));
+    }
+}
+
+impl<X: Measured, Y: Measured> Kind for Option<CurveOf<X, Y>> {
+    type Written = Option<FunctionOf<X, Y>>;
+    type Kept = Option<ScaledCurve>;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<Self::Kept> {
+        let written: Self::Written = reader.written(key)?;
+        let at = reader.at.key(key);
+        Some(written.and_then(|curve| reader.resolver.function(&curve, at)))
+    }
+
+    fn add_fields<'a>(kept: &'a mut Self::Kept, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
         to.push(Field::Term(names.term(Rule::Finite), kept));
     }
 }
@@ -663,5 +680,52 @@ impl<K: Kind, C: Condition<K::Kept>> Kind for Checked<K, C> {
 
     fn add_fields<'a>(kept: &'a mut K::Kept, names: &Names<'_>, to: &mut Vec<Field<'a>>) {
         K::add_fields(kept, names, to);
+    }
+}
+
+/// An element, and a point of it at the key `at`, which is declared behind it; by default its joint.
+pub struct PointOfElement;
+
+impl Kind for PointOfElement {
+    type Written = String;
+    type Kept = Attachment;
+
+    fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<Attachment> {
+        let path: String = reader.written(key)?;
+        let place = reader.at.key(key);
+        if path == "frame" {
+            let (law, _) = reader.resolver.owner.split_once(' ').unwrap_or_default();
+            reader.resolver.problems.add(place.problem(
+                format!("a {law} on the absolute frame moves nothing"),
+                "name an element, as `system/element`",
+            ));
+            return None;
+        }
+        let element = reader.resolver.element_id(&path, place)?;
+        let point: Option<Point> = reader.written("at")?;
+        let place = reader.at.key("at");
+        Some(Attachment {
+            on: Body::Element(element),
+            at: point.map_or(NOWHERE, |point| {
+                reader.resolver.point(&point, element, place)
+            }),
+        })
+    }
+
+    fn add_fields<'a>(kept: &'a mut Attachment, _: &Names<'_>, to: &mut Vec<Field<'a>>) {
+        attachment(kept, "at", to);
+    }
+
+    fn add_bodies<'a>(kept: &'a mut Attachment, bodies: &mut Vec<&'a mut Body>) {
+        Attachment::add_bodies(kept, bodies);
+    }
+
+    fn flatten(kept: &mut Attachment) {
+        Attachment::flatten(kept);
+    }
+
+    fn mirror(expander: &Expander<'_>, record: &mut Node, key: &str) {
+        record.change(key, |element| expander.body(element));
+        record.change("at", |point| expander.polar(point));
     }
 }
