@@ -37,10 +37,23 @@
 //   powers              11             1      6      2             2        2
 //   outputs             31      1            14      8             2        4
 //
-// Operations by section: section mass_matrix velocity_forces applied_forces motion kinetic_energy powers outputs
-// element upper: orientation 1 element lower: orientation 1 S[upper, lower] 4 3 r_s[lower] 6 r_s[upper] 2 joint
-// arm/lower 2 2 1 r_k[lower] 2 r_k[upper] 2 element lower: joint 2 2 element lower: augmented body 2 factorisation of S
-// 20 output energy 26 5 25 power of field gravity 3 power of joint arm/lower: damping 2 output tip x 4
+// Operations by section:
+//   section                            mass_matrix  velocity_forces  applied_forces  motion  kinetic_energy  powers  outputs
+//   element upper: orientation                                                            1
+//   element lower: orientation                                                            1
+//   S[upper, lower]                              4                                        3
+//   r_s[lower]                                                    6
+//   r_s[upper]                                                    2
+//   joint arm/lower                                                               2       2                       1
+//   r_k[lower]                                                                    2
+//   r_k[upper]                                                                    2
+//   element lower: joint                                                                  2                                2
+//   element lower: augmented body                                                         2
+//   factorisation of S                                                                   20
+//   output energy                                                                                        26       5       25
+//   power of field gravity                                                                                        3
+//   power of joint arm/lower: damping                                                                             2
+//   output tip x                                                                                                           4
 
 use bryant_runtime::{
     Info, Model, OutputInfo, OutputWriter, ParameterInfo, ParameterSet, Real, StateKind,
@@ -343,8 +356,7 @@ impl<T: Real> Mechanism<T> {
         kinetic_energy
     }
 
-    /// The power of each effect, in W, in the order of the list of their names. Their sum is the rate of the kinetic
-    /// energy.
+    /// The power of each effect, in W, in the order of the list of their names. Their sum is the rate of the kinetic energy.
     pub fn powers_at(&self, _t: T, q: &[T; COORDINATES], v: &[T; VELOCITIES]) -> [T; 2] {
         let num = T::from_f64;
         let &[upper_phi, lower_phi] = q;
@@ -417,8 +429,8 @@ pub const STATE: usize = 4;
 
 #[allow(dead_code)]
 impl<T: Real> Mechanism<T> {
-    /// v̇ at a whole state, as [`Model::initial_state`] and runs have it. Force laws may get states of their own, and
-    /// what calls this stays as it is.
+    /// v̇ at a whole state, as [`Model::initial_state`] and runs have it. Force laws may get states of
+    /// their own, and what calls this stays as it is.
     #[inline(always)]
     pub fn accelerations_of(&self, t: T, y: &[T; STATE]) -> [T; VELOCITIES] {
         let (q, v) = parts(y);

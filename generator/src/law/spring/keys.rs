@@ -54,17 +54,15 @@ impl DeclaredLaw for Spring {
         );
     }
 
-    fn check(self, name: &str, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
+    fn check(mut self, name: &str, reader: &mut Reader<'_, '_, '_>) -> Option<Self> {
         if self.from.on == self.to.on {
             reader.resolver.problems.add(reader.at.key("to").problem(
                 format!("both ends of spring {} are on the same body", quoted(name)),
                 "a spring runs between two bodies; `frame` is the absolute frame",
             ));
         }
-        Some(Spring {
-            length: self.length.filter(|_| self.elastic.is_some()),
-            ..self
-        })
+        self.settle_terms();
+        Some(self)
     }
 }
 

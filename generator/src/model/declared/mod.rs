@@ -275,6 +275,7 @@ pub trait DeclaredLaw: Declaration + Law {
     const OBSERVABLE: bool = true;
     /// The records below it, in the order of the reference page.
     const RECORDS: &'static [fn() -> TitledKeys] = &[];
+
     /// Reports keys that do not go together. `name` is that of the force.
     fn check_keys(_name: &str, _: &Reader<'_, '_, '_>) {}
 
