@@ -786,3 +786,47 @@ fn long_lists_do_not_cost_time() {
     assert!(problems(&text, &Files::new()).contains("more than 10000"));
     assert!(begin.elapsed().as_secs() < 30);
 }
+
+/// A coefficient of 0 and an absent one give the same model, also where a value that acts must be more than 0.
+#[test]
+fn coefficients_of_zero_are_absent_ones() {
+    let scene = |contact: &str, belt: &str, spring: &str, joint: &str| {
+        format!(
+            "model: zeros
+dimension: 2
+systems:
+  - name: man
+    reference: free
+    elements:
+      - {{ name: torso, mass: 30, cg: [0, 0.2], inertia: 1.1 }}
+      - {{ name: head, on: torso, at: [0, 0.5], mass: 4, cg: [0, 0.1], inertia: 0.03 }}
+forces:
+  - contact: ground
+    ellipsoid: {{ on: man/torso, center: [0, 0], semi_axes: [0.1, 0.1] }}
+    plane: {{ on: frame, at: [0, 0], normal: [0, 1] }}
+    stiffness: 1e4
+{contact}
+  - belt: lap
+    from: {{ on: man/torso, at: [0, 0] }}
+    to: {{ on: frame, at: [1, 0] }}
+    stiffness: 1e4
+{belt}
+  - spring: s
+    from: {{ on: man/torso, at: [0, 0.1] }}
+    to: {{ on: frame, at: [0, 2] }}
+    stiffness: 10
+{spring}
+  - joint: man/head
+    stiffness: 5
+{joint}
+"
+        )
+    };
+    let zeros = scene(
+        "    damping: 0\n    friction: 0\n    friction_speed: 0\n    friction_displacement: 0\n    unloading_slope: 0",
+        "    damping: 0\n    slack: 0\n    unloading_slope: 0",
+        "    damping: 0",
+        "    damping: 0\n    friction: 0\n    friction_displacement: 0\n    neutral: 0\n    motor: 0\n    unloading_slope: 0",
+    );
+    same(&zeros, &scene("", "", "", ""));
+}

@@ -48,7 +48,7 @@ declare! {
             /// curve of the force during unloading, nowhere above `force`; see [hysteresis](#hysteresis)
             unloading: Option<FunctionOf<Pure, Force>>,
             /// slope of the line between the two curves
-            unloading_slope: Option<Number<Positive<ForcePerElongation>>> = "ten times the steepest slope of `force`",
+            unloading_slope: Option<Number<NotNegative<ForcePerElongation>>> = "ten times the steepest slope of `force`",
         } as "hysteresis" needs "it has no elastic force",
         /// Untensioned length L₀; not used with a retractor.
         length: Untensioned {

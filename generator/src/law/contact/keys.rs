@@ -53,7 +53,7 @@ declare! {
             /// curve of the force during unloading, nowhere above `elastic`; see [hysteresis](#hysteresis)
             unloading: Option<FunctionOf<Length, Force>>,
             /// slope of the line between the two curves
-            unloading_slope: Option<Number<Positive<Stiffness>>> = "ten times the steepest slope of `elastic`",
+            unloading_slope: Option<Number<NotNegative<Stiffness>>> = "ten times the steepest slope of `elastic`",
         } as "hysteresis" needs "there is no elastic force",
         /// viscous coefficient on the rate of penetration
         damping: Coefficient<NotNegative<LinearDamping>> = "0",
@@ -68,7 +68,7 @@ declare! {
         /// The bristle by which friction holds; without one, friction only resists motion.
         bristle: Holding<Length> {
             /// friction that holds: it grows with the displacement up to this one; see [friction](#friction)
-            friction_displacement: Option<Number<Positive<Length>>>,
+            friction_displacement: Option<Number<NotNegative<Length>>>,
         } as "friction holds" needs "there is no friction",
     }
 }

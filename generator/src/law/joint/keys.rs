@@ -123,7 +123,7 @@ declare! {
             /// joints](#hysteresis-of-joints)
             unloading: Option<FunctionOf<Coordinate, Effort>>,
             /// slope of the line between the two curves
-            unloading_slope: Option<Number<Positive<Stiffness>>> = "ten times the steepest slope of `elastic`",
+            unloading_slope: Option<Number<NotNegative<Stiffness>>> = "ten times the steepest slope of `elastic`",
         } as "hysteresis" needs "there is no elastic torque",
         /// viscous coefficient
         damping: Coefficient<Damping> = "0",
@@ -135,7 +135,7 @@ declare! {
         /// the bristle by which friction holds; without one, friction is a function of speed
         bristle: Holding<Coordinate> {
             /// with it friction [holds](#friction-that-holds-a-joint): the angle at which it acts in full
-            friction_displacement: Option<Number<Positive<Coordinate>>>,
+            friction_displacement: Option<Number<NotNegative<Coordinate>>>,
         } as "friction holds" needs "there is no friction",
         /// [where the rotation ends](#a-stop)
         stop: Option<Stop>,

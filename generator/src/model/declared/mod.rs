@@ -104,7 +104,9 @@ impl<'m, 'w> Reader<'_, 'm, 'w> {
         let written: Option<WrittenNumber<U>> = self.written(key)?;
         let (at, expected) = (self.at.key(key), U::expected(self.slides));
         let number = written.map(|number| self.resolver.number_in(&number, at, expected));
+        // 0 may mean that there is none: whether it may stand is known where the number has an effect
         if let Some(value) = number.as_ref().and_then(Number::constant)
+            && value != 0.0
             && !U::RULE.keeps(value)
         {
             self.resolver
