@@ -306,9 +306,9 @@ impl Condition<ScaledCurve> for FromZero {
 }
 
 /// The largest tension, at the key `limiter.force`. Where the tension would be larger, webbing is paid out for good.
-pub struct Limited;
+pub struct LimiterForce;
 
-impl Kind for Limited {
+impl Kind for LimiterForce {
     type Written = Option<Limiter>;
     type Kept = Option<Number>;
 
@@ -325,13 +325,13 @@ impl Kind for Limited {
 }
 
 /// The untensioned length, in the way in which it is written: at one of the keys `slack`, `pretension`, `length`.
-pub struct Untensioned;
+pub struct UntensionedLength;
 
-/// The keys of [`Untensioned`], and what each measures.
+/// The keys of [`UntensionedLength`], and what each measures.
 const LENGTHS: [(&str, Expected); 3] =
     [("slack", LENGTH), ("pretension", FORCE), ("length", LENGTH)];
 
-impl Kind for Untensioned {
+impl Kind for UntensionedLength {
     type Written = NoKey;
     type Kept = BeltLength;
 

@@ -1,6 +1,8 @@
 //! The keys of a belt.
 
-use super::check::{self, FilmSpool, FromZero, Limited, RingName, Rings, Tension, Untensioned};
+use super::check::{
+    self, FilmSpool, FromZero, LimiterForce, RingName, Rings, Tension, UntensionedLength,
+};
 use crate::description::curve::FunctionOf;
 use crate::description::force::{Acting, Attachment as End};
 use crate::description::measure::{
@@ -10,8 +12,8 @@ use crate::description::quantity::Number;
 use crate::description::shape::{Flat, record};
 use crate::model::Attachment;
 use crate::model::declared::{
-    Checked, Coefficient, CurveOf, Declared, DeclaredLaw, Fade, OrDefault, PointOfBody, Reader,
-    SwitchName, Unloading, Written, declare,
+    Checked, Coefficient, CurveOf, Declared, DeclaredLaw, Fade, HysteresisOf, OrDefault,
+    PointOfBody, Reader, SwitchName, Written, declare,
 };
 use crate::model::resolve::law::{TitledKeys, record};
 
@@ -44,14 +46,14 @@ declare! {
             stiffness: Option<Number<Positive<Webbing>>>,
         } as "elastic" = "required without `stiffness`",
         /// A different curve for unloading, against the relative elongation.
-        hysteresis: Unloading<Pure, Force, ForcePerElongation> {
+        hysteresis: HysteresisOf<Pure, Force, ForcePerElongation> {
             /// curve of the force during unloading, nowhere above `force`; see [hysteresis](#hysteresis)
             unloading: Option<FunctionOf<Pure, Force>>,
             /// slope of the line between the two curves
             unloading_slope: Option<Number<NotNegative<ForcePerElongation>>> = "ten times the steepest slope of `force`",
         } as "hysteresis" needs "it has no elastic force",
         /// Untensioned length L₀; not used with a retractor.
-        length: Untensioned {
+        length: UntensionedLength {
             /// L₀ is the initial distance of the ends plus this
             slack: Option<Number<NotNegative<Length>>> = "0",
             /// L₀ is such that the belt pulls with this force at the start; the curve must rise strictly from `[0, 0]`
@@ -72,7 +74,7 @@ declare! {
         /// [takes webbing in](#a-pretensioner)
         pretensioner: Option<Pretensioner> as "pretensioner" needs "it has no elastic force",
         /// [pays out webbing](#a-limiter) under load
-        limiter: Limited as "limiter" needs "it has no elastic force",
+        limiter: LimiterForce as "limiter" needs "it has no elastic force",
     }
 }
 

@@ -81,9 +81,9 @@ impl Kind for Degree {
 }
 
 /// What the ellipsoid meets: the keys `plane` and `with`, of which one is written.
-pub struct Meets;
+pub struct OtherSurface;
 
-impl Kind for Meets {
+impl Kind for OtherSurface {
     type Written = NoKey;
     type Kept = Against;
 

@@ -1,6 +1,6 @@
 //! The keys of a contact.
 
-use super::check::{self, Against, Degree, Meets};
+use super::check::{self, Against, Degree, OtherSurface};
 use crate::description::curve::FunctionOf;
 use crate::description::force::Acting;
 use crate::description::measure::{
@@ -13,7 +13,8 @@ use crate::description::short_forms::ByName;
 use crate::description::surface::{Edge, Ellipsoid as WrittenEllipsoid, Plane};
 use crate::model::Ellipsoid;
 use crate::model::declared::{
-    Coefficient, DeclaredLaw, Elastic, Fade, Holding, Reader, Rubbing, Unloading, Written, declare,
+    Coefficient, CoulombFriction, DeclaredLaw, Elastic, Fade, FrictionBristle, HysteresisOf,
+    Reader, Written, declare,
 };
 use crate::model::resolve::NOWHERE;
 use crate::model::resolve::law::{TitledKeys, record};
@@ -36,7 +37,7 @@ declare! {
         /// Exponent n of the surface Σ |x_i/a_i|ⁿ = 1, even: 2 is an ellipsoid, larger numbers are rounded boxes.
         degree: Degree,
         /// The plane or ellipsoid that the ellipsoid meets, on another body.
-        against: Meets {
+        against: OtherSurface {
             /// the [plane](#a-plane) that it meets, on another body, or names of such
             plane: Option<ByName<Plane>>,
             /// instead of `plane`: the other [ellipsoid](#an-ellipsoid), on another body, or names of such; one of the
@@ -49,7 +50,7 @@ declare! {
             stiffness: Option<Number<NotNegative<Stiffness>>>,
         },
         /// A different curve for unloading, against the penetration.
-        hysteresis: Unloading<Length, Force, Stiffness> {
+        hysteresis: HysteresisOf<Length, Force, Stiffness> {
             /// curve of the force during unloading, nowhere above `elastic`; see [hysteresis](#hysteresis)
             unloading: Option<FunctionOf<Length, Force>>,
             /// slope of the line between the two curves
@@ -61,12 +62,12 @@ declare! {
         /// in full at once
         damping_depth: Fade<Length> as "damping fades in" needs "there is no damping" = "1 mm",
         /// coefficient of Coulomb friction on the normal force
-        friction: Rubbing<FrictionCoefficient, Speed> {
+        friction: CoulombFriction<FrictionCoefficient, Speed> {
             /// friction grows in proportion to the sliding speed up to this one, and is constant beyond
             friction_speed: Option<Number<Positive<Speed>>> = "0.01",
         } as "friction" needs "nothing presses" = "0",
         /// The bristle by which friction holds; without one, friction only resists motion.
-        bristle: Holding<Length> {
+        bristle: FrictionBristle<Length> {
             /// friction that holds: it grows with the displacement up to this one; see [friction](#friction)
             friction_displacement: Option<Number<NotNegative<Length>>>,
         } as "friction holds" needs "there is no friction",

@@ -6,7 +6,7 @@ use crate::description::place::At;
 use crate::description::shape::Flat;
 use crate::diagnostic::{quoted, suggestion};
 use crate::model::declared::{
-    Along, DeclaredLaw, Kind, Names, Reader, Written, declare, declared_terms,
+    DeclaredLaw, Kind, Names, PolarVector, Reader, Written, declare, declared_terms,
 };
 use crate::model::law::Terms;
 use crate::model::part;
@@ -25,7 +25,7 @@ declare! {
         acting: Flat<Acting>,
     } and kept {
         /// per absolute axis: a number, or a curve of time (s → m/s²)
-        acceleration: Along<Acceleration>,
+        acceleration: PolarVector<Acceleration>,
         /// list of systems and elements that feel it
         on: Elements = "all elements",
     }

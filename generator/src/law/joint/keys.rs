@@ -16,8 +16,8 @@ use crate::description::shape::{
 use crate::description::short_forms::{Each, LongAxis};
 use crate::model;
 use crate::model::declared::{
-    Coefficient, Declaration, Declared, Elastic, Fade, Given, Holding, OverTimeTerm, Reader,
-    Required, RequiredOverTime, Rubbing, SwitchName, Unloading, Written, declare,
+    Coefficient, CoulombFriction, Declaration, Declared, Elastic, Fade, FrictionBristle, Given,
+    HysteresisOf, Reader, Required, RequiredOverTime, SwitchName, TermOverTime, Written, declare,
 };
 use crate::model::law::Law;
 use crate::model::resolve::Resolver;
@@ -118,7 +118,7 @@ declare! {
         /// relative angle at which the abscissa of the curve is 0
         neutral: Coefficient<Coordinate> as "neutral angle" needs "there is no elastic torque" = "0",
         /// the unloading law of the elastic curve, on both sides of its zero
-        hysteresis: Unloading<Coordinate, Effort, Stiffness> {
+        hysteresis: HysteresisOf<Coordinate, Effort, Stiffness> {
             /// curve of the torque during unloading, between 0 and `elastic`; see [hysteresis of
             /// joints](#hysteresis-of-joints)
             unloading: Option<FunctionOf<Coordinate, Effort>>,
@@ -128,12 +128,12 @@ declare! {
         /// viscous coefficient
         damping: Coefficient<Damping> = "0",
         /// Coulomb torque
-        friction: Rubbing<Effort, CoordinateRate> {
+        friction: CoulombFriction<Effort, CoordinateRate> {
             /// friction grows in proportion to speed up to this one, and is constant beyond
             friction_speed: Option<Number<Positive<CoordinateRate>>> = "0.1",
         } = "0",
         /// the bristle by which friction holds; without one, friction is a function of speed
-        bristle: Holding<Coordinate> {
+        bristle: FrictionBristle<Coordinate> {
             /// with it friction [holds](#friction-that-holds-a-joint): the angle at which it acts in full
             friction_displacement: Option<Number<NotNegative<Coordinate>>>,
         } as "friction holds" needs "there is no friction",
@@ -142,7 +142,7 @@ declare! {
         /// [a lock](#a-lock), which holds the angle from a switch on
         lock: Option<Lock>,
         /// torque of a motor, a number or a curve of time (s → N·m); a positive one drives the angle up
-        motor: OverTimeTerm<Effort> = "0",
+        motor: TermOverTime<Effort> = "0",
         /// [a drive](#a-drive) towards a given angle
         drive: Option<Drive>,
     }

@@ -7,7 +7,7 @@ use crate::description::shape::Flat;
 use crate::diagnostic::quoted;
 use crate::model::Number;
 use crate::model::declared::{
-    About, Along, DeclaredLaw, PointOfElement, Reader, Written, declare, declared_terms,
+    AxialVector, DeclaredLaw, PointOfElement, PolarVector, Reader, Written, declare, declared_terms,
 };
 use crate::model::law::Terms;
 use crate::model::part::Part;
@@ -31,9 +31,9 @@ declare! {
             at: Option<Point> = "the joint of the element",
         },
         /// per absolute axis: a number, or a curve of time (s → N)
-        force: Option<Along<Force>> = "0",
+        force: Option<PolarVector<Force>> = "0",
         /// a number, or a curve of time (s → N·m): about +y in the plane; `[x, y, z]` in absolute axes in space
-        moment: Option<About<Moment>> = "0",
+        moment: Option<AxialVector<Moment>> = "0",
     }
 }
 

@@ -133,11 +133,11 @@ impl Kind for Attachment {
 }
 
 /// Components along the absolute axes, each a number or a curve of time: a polar vector.
-pub struct Along<U>(PhantomData<U>);
+pub struct PolarVector<U>(PhantomData<U>);
 
 /// Components about the absolute axes, each a number or a curve of time: an axial vector. In the plane there is one,
 /// about y.
-pub struct About<U>(PhantomData<U>);
+pub struct AxialVector<U>(PhantomData<U>);
 
 /// No component.
 fn nothing() -> [FieldComponent; 3] {
@@ -154,7 +154,7 @@ fn keep_in_plane(components: &mut [FieldComponent; 3], in_plane: fn(usize) -> bo
 }
 
 /// Its terms are called by their axes alone, for a law that needs a vector consists of it.
-impl<U: Measured> Kind for Along<U> {
+impl<U: Measured> Kind for PolarVector<U> {
     type Written = Vec<OverTime<U>>;
     type Kept = [FieldComponent; 3];
 
@@ -180,13 +180,13 @@ impl<U: Measured> Kind for Along<U> {
     }
 }
 
-impl<U: Measured> Kind for Option<Along<U>> {
+impl<U: Measured> Kind for Option<PolarVector<U>> {
     type Written = Option<Vec<OverTime<U>>>;
     type Kept = [FieldComponent; 3];
 
     fn keep(reader: &mut Reader<'_, '_, '_>, key: &'static str) -> Option<Self::Kept> {
         match reader.has(key) {
-            true => Along::<U>::keep(reader, key),
+            true => PolarVector::<U>::keep(reader, key),
             false => Some(nothing()),
         }
     }
@@ -197,15 +197,15 @@ impl<U: Measured> Kind for Option<Along<U>> {
     }
 
     fn flatten(kept: &mut Self::Kept) {
-        Along::<U>::flatten(kept);
+        PolarVector::<U>::flatten(kept);
     }
 
     fn mirror(expander: &Expander<'_>, record: &mut Node, key: &str) {
-        Along::<U>::mirror(expander, record, key);
+        PolarVector::<U>::mirror(expander, record, key);
     }
 }
 
-impl<U: Measured> Kind for Option<About<U>> {
+impl<U: Measured> Kind for Option<AxialVector<U>> {
     type Written = Option<OneOrThree<OverTime<U>>>;
     type Kept = [FieldComponent; 3];
 
@@ -352,7 +352,7 @@ const FADING_ANGLE: f64 = std::f64::consts::PI / 180.0;
 
 /// Coulomb friction: its limit `F` at its own key, and the speed `V` up to which it is proportional to speed at the
 /// key `friction_speed`, which is declared behind it.
-pub struct Rubbing<F, V>(PhantomData<(F, V)>);
+pub struct CoulombFriction<F, V>(PhantomData<(F, V)>);
 
 /// Speed from which on friction has its full size, if the user gives none, where a length slides \[m/s\].
 const SLIDING_SPEED: f64 = 0.01;
@@ -360,7 +360,7 @@ const SLIDING_SPEED: f64 = 0.01;
 /// The same where an angle turns \[rad/s\].
 const TURNING_SPEED: f64 = 0.1;
 
-impl<F: InPlace, V: InPlace> Kind for Rubbing<F, V> {
+impl<F: InPlace, V: InPlace> Kind for CoulombFriction<F, V> {
     type Written = Option<WrittenNumber<NotNegative<F>>>;
     type Kept = Option<Friction>;
 
@@ -387,9 +387,9 @@ impl<F: InPlace, V: InPlace> Kind for Rubbing<F, V> {
 }
 
 /// The bristle by which the friction at the key `friction` holds: its deflection at the key `friction_displacement`.
-pub struct Holding<U>(PhantomData<U>);
+pub struct FrictionBristle<U>(PhantomData<U>);
 
-impl<U: InPlace> Kind for Holding<U> {
+impl<U: InPlace> Kind for FrictionBristle<U> {
     type Written = NoKey;
     type Kept = Option<Bristle>;
 
@@ -413,9 +413,9 @@ impl<U: InPlace> Kind for Holding<U> {
 
 /// The hysteresis of the elastic law that was read last: the keys `unloading`, a function of `X` measured in `Y`, and
 /// `unloading_slope`, measured in `S`.
-pub struct Unloading<X, Y, S>(PhantomData<(X, Y, S)>);
+pub struct HysteresisOf<X, Y, S>(PhantomData<(X, Y, S)>);
 
-impl<X: InPlace, Y: InPlace, S: InPlace> Kind for Unloading<X, Y, S> {
+impl<X: InPlace, Y: InPlace, S: InPlace> Kind for HysteresisOf<X, Y, S> {
     type Written = NoKey;
     type Kept = Option<Hysteresis>;
 
@@ -449,9 +449,9 @@ impl<X: InPlace, Y: InPlace, S: InPlace> Kind for Unloading<X, Y, S> {
 }
 
 /// A number or a curve of time, which is a term; 0 counts as not written.
-pub struct OverTimeTerm<U>(PhantomData<U>);
+pub struct TermOverTime<U>(PhantomData<U>);
 
-impl<U: InPlace> Kind for OverTimeTerm<U> {
+impl<U: InPlace> Kind for TermOverTime<U> {
     type Written = Option<OverTime<U>>;
     type Kept = Option<FieldComponent>;
 
